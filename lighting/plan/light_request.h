@@ -1,0 +1,44 @@
+// One door to all estimators: what to compute, by which method, with which knobs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lighting/base/light_map.h"
+#include "lighting/envelope/envelope_estimator.h"
+#include "lighting/optics/optics.h"
+#include "lighting/sky/illumination.h"
+#include "lighting/slab/spp_estimators.h"
+#include "lighting/trace/reference.h"
+#include "sim/base/run_control.h"
+#include "sim/forest/forest.h"
+
+namespace sunfleck {
+
+enum class Method { kReference, kSingleScattering, kSpp, kSppG, kEnvelope, kEnvelopeMarched };
+
+std::string to_string(Method method);  // reference, single_scattering, spp, spp_g, envelope, envelope_marched
+Method method_from_string(const std::string& name, const std::string& where);  // throws, listing the names
+const std::vector<std::string>& method_names();
+
+// What changes the answer.
+struct LightRequest {
+  Method method = Method::kReference;
+  OpticsRequest optics;
+  Illumination light;
+  ReferenceOptions reference;
+  SppOptions spp;
+  EnvelopeOptions envelope;
+};
+
+// What only changes its cost.
+struct CostOptions {
+  int threads = 0;  // 0: all cores
+};
+
+// Validates, skips what the scene does not need (and says so), runs the method, fills the provenance and
+// checks the invariants of every result. Throws Error for bad input, an empty forest, a stop, or a limit.
+LightMap compute_light_map(const Forest& forest, const LightRequest& request, const CostOptions& cost,
+                           const RunControl& control);
+
+}  // namespace sunfleck

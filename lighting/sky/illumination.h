@@ -1,0 +1,40 @@
+// Sun and sky of one moment, per band. Everything is linear in the strengths.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/base/vec.h"
+
+namespace sunfleck {
+
+enum class SkyModel {
+  kUniform,          // the same radiance from everywhere above the horizon
+  kStandardOvercast  // L = Lz (1 + 2 cos zenith) / 3, Moon and Spencer 1942
+};
+std::string to_string(SkyModel model);  // "uniform", "standard_overcast"
+
+// Radiance of the sky for a diffuse irradiance of 1 on a horizontal plane, 1/sr; 0 at and below the horizon.
+double relative_sky_radiance(SkyModel model, double cos_zenith);
+
+// Strengths of one band.
+struct BandLight {
+  double beam_normal_w_m2 = 0;         // sunlight on a plane that faces the sun
+  double diffuse_horizontal_w_m2 = 0;  // sky light on a horizontal plane, nothing in the way
+};
+
+struct Illumination {
+  Vec3 to_sun{0, 0, 1};           // unit; below the horizon there is no sunlight
+  double sun_half_angle_rad = 0;  // 0: a point; the real sun 0.265 degrees
+  SkyModel sky = SkyModel::kUniform;
+  std::vector<BandLight> bands;  // one per band of the OpticsTable
+
+  bool sun_is_up() const { return to_sun.z > 0.0; }
+};
+
+// Throws Error(kInvalidInput) naming "illumination.<field>": to_sun not finite or of length 0 (else it is
+// returned normalised), strengths negative or not finite, number of bands wrong, half angle outside [0, 5]
+// degrees.
+Illumination checked(Illumination light, std::size_t band_count);
+
+}  // namespace sunfleck

@@ -1,0 +1,52 @@
+// Rays through a forest. The only folder that knows Embree; its types stay inside.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "sim/base/vec.h"
+#include "sim/forest/forest.h"
+
+namespace sunfleck {
+
+enum class HitKind : std::uint8_t { kSky, kFoliage, kWood, kWoodMesh, kGround };
+
+struct RayHit {
+  HitKind kind = HitKind::kSky;
+  bool front = false;          // foliage: the front face was hit (for a shoot: one of its two faces by lot)
+  std::uint32_t instance = 0;  // index into Forest::instances (of the original where a wrapped copy was hit)
+  std::uint32_t local = 0;     // foliage element, wood segment or triangle of its prototype
+  double distance_m = 0;
+  Vec3 position_m{0};  // world; for a periodic forest brought back into the base cell
+  Vec3 normal{0};      // unit, of the surface hit, turned towards the ray's origin
+};
+
+// An Embree scene over the instances of a forest. Immutable; all calls are const and safe from many threads.
+// `forest` must outlive it. Shoots are small clouds of needles: a ray flies through their cylinder and meets
+// a needle with a chance given by path length times half the needle area density, drawn from the ray itself
+// (same ray, same answer). In a periodic forest rays go on on the other side of the cell, at most max_wraps
+// times, then count as sky (upwards) or ground (downwards).
+class RayScene {
+ public:
+  struct Options {
+    bool ground = true;  // false: nothing below, rays down go to "sky"
+    int max_wraps = 1000;
+  };
+  RayScene(const Forest& forest, const Options& options);
+  ~RayScene();
+  RayScene(const RayScene&) = delete;
+  RayScene& operator=(const RayScene&) = delete;
+
+  RayHit closest_hit(const Vec3& origin_m, const Vec3& direction, double min_distance_m = 0.0) const;
+  // True if anything (foliage, wood, ground) lies on the way to infinity.
+  bool occluded(const Vec3& origin_m, const Vec3& direction, double min_distance_m = 0.0) const;
+
+  std::size_t copies() const;        // wrapped copies added for the period
+  std::size_t memory_bytes() const;  // of Embree's structures
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace sunfleck

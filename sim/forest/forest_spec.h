@@ -1,0 +1,69 @@
+// What a forest shall be, as plain options, and the function that grows it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/base/run_control.h"
+#include "sim/config/config_table.h"
+#include "sim/forest/forest.h"
+#include "sim/plant/species.h"
+
+namespace sunfleck {
+
+// One row of an inventory; columns as in the measured stands: id_tree, species, x, y, dbh_cm and, if known,
+// crown_type, h_m, hbase_m, hmax_m, rn_m, rs_m, re_m, rw_m, crown_lad. Missing ones come from allometry.
+struct InventoryTree {
+  TreeId id;
+  std::string species;
+  double x_m = 0, y_m = 0, dbh_cm = 0;
+  std::optional<double> height_m, crown_base_m, widest_m, radius_n_m, radius_s_m, radius_e_m, radius_w_m,
+      leaf_area_density_per_m;
+};
+// Throws Error(kInvalidInput) with "file:line, column": missing column, not a number, negative, duplicate id,
+// crown base above the top. An empty table is an error.
+std::vector<InventoryTree> read_inventory(const std::filesystem::path& path);
+std::vector<InventoryTree> parse_inventory(std::string_view csv, const std::string& name);
+
+enum class PlantingPattern { kPoissonDisc, kRows, kRandom };
+struct PlantingRule {
+  std::string species;
+  int count = 100;  // trees asked for; Poisson disc plants fewer when they do not fit (and says so)
+  PlantingPattern pattern = PlantingPattern::kPoissonDisc;
+  double spacing_m = 3;  // least distance (Poisson disc) or grid step (rows)
+  double dbh_mean_cm = 25, dbh_sd_cm = 5;
+};
+
+// How trees become geometry.
+enum class TreeSource {
+  kLsystem,  // the species' grammar: shared prototypes per species, size class and variant, scaled to the
+             // tree
+  kCrown     // one prototype per tree: its own crown shape filled with leaves
+};
+
+struct ForestSpec {
+  std::string name = "forest";
+  std::uint64_t seed = 1;
+  TreeSource trees = TreeSource::kLsystem;
+  std::vector<InventoryTree> inventory;  // either this
+  std::vector<PlantingRule> planting;    // or this, inside [0, width] x [0, depth]
+  double plot_width_m = 0, plot_depth_m = 0;
+  int elements_per_tree = 1000;  // kCrown: foliage elements per tree
+  double detail = 1.0;           // kLsystem: share of the foliage elements kept, (0, 1]
+  int size_classes = 4;          // kLsystem: DBH classes per species
+  int variants = 2;              // kLsystem: prototypes per class
+  Terrain terrain;
+  std::optional<Period> period;
+};
+
+// Reads the [forest] table of a scene file (see configs/scenes); inventory paths are relative to the file.
+ForestSpec read_forest_spec(const ConfigTable& table);
+
+// Grows it. Deterministic in (spec, species). Throws Error for unknown species, no trees, or limits.
+Forest grow_forest(const ForestSpec& spec, const SpeciesLibrary& species, const RunControl& control);
+
+}  // namespace sunfleck

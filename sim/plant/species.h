@@ -1,0 +1,72 @@
+// A species as its file in configs/species states it: allometry, grammar, foliage, optics; each number with a
+// source.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "sim/forest/forest.h"
+
+namespace sunfleck {
+
+struct PowerLaw {
+  double a = 0, b = 0;  // value = a * dbh_cm^b
+  double at(double dbh_cm) const;
+};
+
+// h = 1.3 m + exp(p + q / (dbh_cm + 1))
+struct HeightCurve {
+  double p = 0, q = 0;
+  double at(double dbh_cm) const;
+};
+
+enum class LeafAngles { kSpherical, kPlanophile, kErectophile, kPlagiophile, kUniform };
+
+enum class FoliageKind { kLeaf, kShoot };
+
+struct FoliageTemplate {
+  FoliageKind kind = FoliageKind::kLeaf;
+  double leaf_length_m = 0.07, leaf_width_m = 0.05;        // leaf
+  double shoot_length_m = 0.1, shoot_radius_m = 0.02;      // shoot
+  double needle_length_m = 0.015, needle_width_m = 0.001;  // shoot
+  double needles_per_m = 1500;                             // shoot
+  LeafAngles angles = LeafAngles::kSpherical;
+};
+
+struct Species {
+  std::string code, latin;               // "fasy", "Fagus sylvatica"
+  std::vector<std::string> also_called;  // names that inventories use ("abies", "beech", ...)
+  HeightCurve height;
+  PowerLaw crown_radius;
+  double crown_length_ratio = 0.6;  // crown length / height, stand-grown
+  PowerLaw foliage_mass_kg;
+  double specific_leaf_area_m2_kg = 10;  // one-sided
+  FoliageTemplate foliage;
+  std::string crown_shape;  // "ellipsoid", "cone", "paraboloid"
+  std::filesystem::path grammar;
+  Material material;  // name = latin
+
+  double height_m(double dbh_cm) const { return height.at(dbh_cm); }
+  double crown_radius_m(double dbh_cm) const { return crown_radius.at(dbh_cm); }
+  double crown_base_m(double dbh_cm) const { return (1.0 - crown_length_ratio) * height_m(dbh_cm); }
+  double leaf_area_m2(double dbh_cm) const { return foliage_mass_kg.at(dbh_cm) * specific_leaf_area_m2_kg; }
+};
+
+// Reads one species file; every key is read or refused.
+Species load_species(const std::filesystem::path& path);
+
+// All species of a folder, found by code, latin name or also_called (case does not matter).
+class SpeciesLibrary {
+ public:
+  static SpeciesLibrary load(const std::filesystem::path& folder);
+  // Throws Error(kInvalidInput) at `where` with the list of known names.
+  const Species& find(const std::string& name, const std::string& where) const;
+  const std::vector<Species>& all() const { return species_; }
+
+ private:
+  std::vector<Species> species_;
+};
+
+}  // namespace sunfleck
