@@ -1,0 +1,48 @@
+#include "lighting/sky/illumination.h"
+
+#include <cmath>
+
+#include "sim/base/error.h"
+
+namespace sunfleck {
+namespace {
+
+void check_strength(double value, const std::string& where) {
+  if (!std::isfinite(value) || value < 0.0)
+    throw_invalid(where, "is not a number >= 0", "an irradiance in W m-2");
+}
+
+}  // namespace
+
+std::string to_string(SkyModel model) {
+  return model == SkyModel::kUniform ? "uniform" : "standard_overcast";
+}
+
+double relative_sky_radiance(SkyModel model, double cos_zenith) {
+  if (!(cos_zenith > 0.0)) return 0.0;
+  // Both integrate to 1 over the cosine-weighted hemisphere: pi L = 1, and Lz * 7 pi / 9 = 1 with L = Lz
+  // (1+2c)/3.
+  if (model == SkyModel::kUniform) return 1.0 / kPi;
+  return (9.0 / (7.0 * kPi)) * (1.0 + 2.0 * cos_zenith) / 3.0;
+}
+
+Illumination checked(Illumination light, std::size_t band_count) {
+  if (!is_finite(light.to_sun)) throw_invalid("illumination.to_sun", "is not finite", "a direction");
+  const double length = glm::length(light.to_sun);
+  if (!(length > 0.0)) throw_invalid("illumination.to_sun", "has length 0", "a direction towards the sun");
+  if (std::abs(length - 1.0) > 1e-15) light.to_sun /= length;
+  if (!(light.sun_half_angle_rad >= 0.0 && light.sun_half_angle_rad <= radians_from_degrees(5.0)))
+    throw_invalid("illumination.sun_half_angle_deg", "is outside [0, 5]",
+                  "0.265 for the real sun, 0 for a point");
+  if (light.bands.size() != band_count)
+    throw_invalid("illumination.bands", "has " + std::to_string(light.bands.size()) + " entries",
+                  "one for each of the " + std::to_string(band_count) + " bands");
+  for (std::size_t b = 0; b < band_count; ++b) {
+    const std::string where = "illumination.bands[" + std::to_string(b) + "].";
+    check_strength(light.bands[b].beam_normal_w_m2, where + "beam_normal_w_m2");
+    check_strength(light.bands[b].diffuse_horizontal_w_m2, where + "diffuse_horizontal_w_m2");
+  }
+  return light;
+}
+
+}  // namespace sunfleck
