@@ -2,10 +2,12 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "sim/base/run_control.h"
 #include "sim/plant/prototype.h"
@@ -48,21 +50,37 @@ struct CrownFill {
 // top.
 Prototype crown_prototype(const Species& species, const CrownShape& crown, const CrownFill& fill);
 
-// `radius x y z nx ny nz` per line (disc), or `x0 y0 z0 ... x3 y3 z3` (planar quad: a parallelogram); #
-// comments; .gz is read too.
-Prototype import_leaf_list(const std::filesystem::path& path, const std::string& material);
+// What an import found and what it left out.
+struct ImportReport {
+  std::size_t discs = 0, parallelograms = 0, triangles = 0;  // foliage elements made
+  std::size_t wood_triangles = 0;
+  std::size_t degenerate_skipped = 0;  // faces and discs without area
+  std::vector<std::string> warnings;   // sentences for the user: what was skipped or looks wrong
+};
 
-// OBJ or PLY. Faces of materials (OBJ usemtl/group; PLY: one material "") in `leaf_materials` (file material
-// -> forest material name) become two-sided leaves, those in `wood_materials` opaque wood; any other is an
-// error.
+// Coordinates of imported files are taken as they are: metres, z up, the stem foot at the origin. All imports
+// read .gz too, and throw Error with "file:line" for what they cannot understand.
+
+// `radius x y z nx ny nz` per line (disc), or `x0 y0 z0 ... x3 y3 z3` (quad, corners in order: a
+// parallelogram to 1e-3 of its size, else two triangles); # comments.
+Prototype import_leaf_list(const std::filesystem::path& path, const std::string& material,
+                           ImportReport* report = nullptr);
+
+// OBJ or PLY (ascii or little-endian). Faces of materials (OBJ usemtl, else group; PLY: one material "") in
+// `leaf_materials` (file material -> forest material name) become two-sided leaves, those in
+// `wood_materials` opaque wood; any other is an error.
 struct MeshMaterials {
   std::map<std::string, std::string> leaf_materials, wood_materials;
 };
-Prototype import_mesh(const std::filesystem::path& path, const MeshMaterials& materials);
+Prototype import_mesh(const std::filesystem::path& path, const MeshMaterials& materials,
+                      ImportReport* report = nullptr);
 
-// Writes a prototype as OBJ (leaves and wood as faces, materials by name); renamed into place.
+// Writes a prototype as OBJ, renamed into place. Leaves as faces (a disc as an octagon of its area), shoots
+// and wood segments as eight-sided prisms; materials "leaf_<name>", "shoot_<name>" and "wood_<name>" with _
+// for blanks.
 void export_obj(const Prototype& prototype, const std::filesystem::path& path);
-// Writes the discs and parallelograms of a prototype in the formats import_leaf_list reads.
-void export_leaf_list(const Prototype& prototype, const std::filesystem::path& path);
+// Writes the discs and parallelograms of a prototype in the formats import_leaf_list reads, renamed into
+// place; returns how many elements the format cannot hold (triangles, shoots).
+std::size_t export_leaf_list(const Prototype& prototype, const std::filesystem::path& path);
 
 }  // namespace sunfleck

@@ -30,10 +30,19 @@ struct FoliageTemplate {
   FoliageKind kind = FoliageKind::kLeaf;
   double leaf_length_m = 0.07, leaf_width_m = 0.05;        // leaf
   double shoot_length_m = 0.1, shoot_radius_m = 0.02;      // shoot
-  double needle_length_m = 0.015, needle_width_m = 0.001;  // shoot
+  double needle_length_m = 0.015, needle_width_m = 0.001;  // shoot; width of the round needle of equal girth
   double needles_per_m = 1500;                             // shoot
-  LeafAngles angles = LeafAngles::kSpherical;
+  LeafAngles angles = LeafAngles::kSpherical;              // of leaf normals; of shoot axes: see crown_fill.h
+
+  // One-sided (half of the total) needle area of one template shoot, of round needles: pi/2 length * width
+  // each.
+  double shoot_area_m2() const;
+  // That area per volume of the shoot's cylinder.
+  double shoot_density_per_m() const;
 };
+
+// How well the optics are known.
+enum class Confidence { kHigh, kLow };
 
 struct Species {
   std::string code, latin;               // "fasy", "Fagus sylvatica"
@@ -44,9 +53,10 @@ struct Species {
   PowerLaw foliage_mass_kg;
   double specific_leaf_area_m2_kg = 10;  // one-sided
   FoliageTemplate foliage;
-  std::string crown_shape;  // "ellipsoid", "cone", "paraboloid"
-  std::filesystem::path grammar;
-  Material material;  // name = latin
+  std::string crown_shape;        // "ellipsoid", "cone", "paraboloid"
+  std::filesystem::path grammar;  // empty: the species is known by its crown only
+  Material material;              // name = latin
+  Confidence optics_confidence = Confidence::kLow;
 
   double height_m(double dbh_cm) const { return height.at(dbh_cm); }
   double crown_radius_m(double dbh_cm) const { return crown_radius.at(dbh_cm); }

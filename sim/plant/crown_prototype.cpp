@@ -1,0 +1,108 @@
+// A crown shape filled evenly with foliage of a species.
+//
+// Element centres are uniform over the crown's volume outside the stem, normals follow the species' leaf
+// angles, all elements have the same area. A shoot's axis lies in the plane of a leaf normal drawn so:
+// spherical normals give axes that point everywhere alike, planophile ones nearly level axes. Leaves may
+// overhang the crown's surface by their own size, but not reach below the ground at the stem foot.
+#include <cmath>
+
+#include "sim/base/error.h"
+#include "sim/plant/crown_shape.h"
+#include "sim/plant/crown_stem.h"
+#include "sim/plant/leaf_angle_sampling.h"
+#include "sim/plant/make_prototype.h"
+
+namespace sunfleck {
+namespace {
+
+constexpr int kMostElements = 50'000'000;
+constexpr int kMostTries = 64;  // to find a place outside stem and ground; then the last one is taken
+
+// Half edges of an element of the given area; the first axis of the frame is the leaf's length.
+struct HalfEdges {
+  Vec3 u_m, v_m;
+};
+
+// Parallelogram (here: rectangle) of the species' length to width, 4 |u| |v| = area.
+HalfEdges leaf_edges(const FoliageTemplate& foliage, double area_m2, const Vec3& length_axis,
+                     const Vec3& width_axis) {
+  const double ratio = foliage.leaf_length_m / foliage.leaf_width_m;
+  const double half_width_m = 0.5 * std::sqrt(area_m2 / ratio);
+  return {half_width_m * ratio * length_axis, half_width_m * width_axis};
+}
+
+// The template shoot scaled in all directions: needle area per volume stays.
+HalfEdges shoot_edges(const FoliageTemplate& foliage, double area_m2, const Vec3& axis, const Vec3& across) {
+  const double scale = std::cbrt(area_m2 / foliage.shoot_area_m2());
+  return {0.5 * scale * foliage.shoot_length_m * axis, scale * foliage.shoot_radius_m * across};
+}
+
+FoliageElement make_element(const FoliageTemplate& foliage, double area_m2, const Vec3& centre_m,
+                            const Vec3& normal, double turn_rad) {
+  const Basis basis = basis_around(normal);
+  const Vec3 first = std::cos(turn_rad) * basis.tangent + std::sin(turn_rad) * basis.bitangent;
+  const Vec3 second = glm::cross(normal, first);
+  const bool is_leaf = foliage.kind == FoliageKind::kLeaf;
+  const HalfEdges edges =
+      is_leaf ? leaf_edges(foliage, area_m2, first, second) : shoot_edges(foliage, area_m2, first, second);
+  FoliageElement element;
+  element.centre_m = Vec3f(centre_m);
+  element.half_u_m = Vec3f(edges.u_m);
+  element.half_v_m = Vec3f(edges.v_m);
+  element.area_m2 = static_cast<float>(area_m2);
+  element.shape = is_leaf ? ElementShape::kParallelogram : ElementShape::kShoot;
+  return element;
+}
+
+bool stands_free(const CrownShape& crown, const FoliageElement& element) {
+  const Vec3 c(element.centre_m);
+  return std::hypot(c.x, c.y) >= stem_radius_m(crown, c.z) && element_bounds(element).lo.z >= 0.0;
+}
+
+FoliageElement place_element(const Species& species, const CrownShape& crown, const CrownSampler& sampler,
+                             double area_m2, double share, RandomStream& random) {
+  FoliageElement element;
+  for (int i = 0; i < kMostTries; ++i) {
+    const Vec3 centre_m = sampler.sample(share, random);
+    const Vec3 normal = sample_leaf_normal(species.foliage.angles, random);
+    element = make_element(species.foliage, area_m2, centre_m, normal, random.uniform(0.0, 2.0 * kPi));
+    if (stands_free(crown, element)) break;
+  }
+  return element;
+}
+
+void require_possible(const CrownFill& fill, const std::string& where) {
+  if (!(fill.leaf_area_m2 > 0.0 && fill.leaf_area_m2 <= 1e6))
+    throw_invalid(where + ": leaf area", "is no leaf area", "give square metres above 0");
+  if (fill.elements < 1 || fill.elements > kMostElements)
+    throw_invalid(where + ": elements", std::to_string(fill.elements) + " foliage elements are not possible",
+                  "give a number from 1 to " + std::to_string(kMostElements));
+}
+
+}  // namespace
+
+Prototype crown_prototype(const Species& species, const CrownShape& crown, const CrownFill& fill) {
+  validate(crown, species.latin);
+  require_possible(fill, species.latin);
+  Prototype prototype;
+  prototype.name = species.latin;
+  prototype.materials = {species.material.name};
+  prototype.stated_dbh_m = crown.dbh_m;
+  prototype.wood = crown_stem(crown);
+
+  const CrownSampler sampler(crown);
+  const auto count = static_cast<std::size_t>(fill.elements);
+  const double each_m2 = static_cast<float>(fill.leaf_area_m2 / fill.elements);
+  double left_m2 = fill.leaf_area_m2;
+  prototype.foliage.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    RandomStream random(fill.seed, i, RandomPurpose::kCrownFill);
+    const double share = (static_cast<double>(i) + random.uniform()) / fill.elements;
+    const double area_m2 = i + 1 < count ? each_m2 : left_m2;
+    prototype.foliage.push_back(place_element(species, crown, sampler, area_m2, share, random));
+    left_m2 -= each_m2;
+  }
+  return prototype;
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,118 @@
+// Reads a species file. Every table carries the source of its numbers; a file without one is refused.
+#include <algorithm>
+
+#include "sim/base/error.h"
+#include "sim/config/config_table.h"
+#include "sim/plant/species.h"
+
+namespace sunfleck {
+namespace {
+
+constexpr Range kFraction{0.0, 1.0};
+constexpr Range kSize_m{1e-5, 10.0};
+
+void require_source(const ConfigTable& table, std::string_view key = "source") {
+  if (table.text(key).empty())
+    throw_invalid(table.where(key), "is empty", "say where the numbers come from, or that they are assumed");
+}
+
+PowerLaw read_power_law(const ConfigTable& table) {
+  require_source(table);
+  return {table.number("a", {1e-6, 1e3}), table.number("b", {0.0, 5.0})};
+}
+
+HeightCurve read_height(const ConfigTable& table) {
+  require_source(table);
+  return {table.number("p", {0.0, 5.0}), table.number("q", {-200.0, 0.0})};
+}
+
+LeafAngles read_angles(const ConfigTable& table) {
+  require_source(table, "angles_source");
+  const std::vector<std::string> names = {"spherical", "planophile", "erectophile", "plagiophile", "uniform"};
+  const std::string name = table.choice("angles", names);
+  return static_cast<LeafAngles>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+FoliageTemplate read_foliage(const ConfigTable& table) {
+  FoliageTemplate foliage;
+  require_source(table);
+  if (table.choice("kind", {"leaf", "shoot"}) == "leaf") {
+    foliage.kind = FoliageKind::kLeaf;
+    foliage.leaf_length_m = table.number("leaf_length_m", kSize_m);
+    foliage.leaf_width_m = table.number("leaf_width_m", kSize_m);
+  } else {
+    foliage.kind = FoliageKind::kShoot;
+    foliage.shoot_length_m = table.number("shoot_length_m", kSize_m);
+    foliage.shoot_radius_m = table.number("shoot_radius_m", kSize_m);
+    foliage.needle_length_m = table.number("needle_length_m", kSize_m);
+    foliage.needle_width_m = table.number("needle_width_m", kSize_m);
+    foliage.needles_per_m = table.number("needles_per_m", {1.0, 1e6});
+  }
+  foliage.angles = read_angles(table);
+  return foliage;
+}
+
+MaterialBand read_band(const ConfigTable& table) {
+  MaterialBand band{table.text("name"), table.number("leaf_reflectance", kFraction),
+                    table.number("leaf_transmittance", kFraction),
+                    table.number("bark_reflectance", kFraction)};
+  if (band.band.empty()) throw_invalid(table.where("name"), "is empty", "name the band, for example \"PAR\"");
+  if (band.leaf_reflectance + band.leaf_transmittance > 1.0)
+    throw_invalid(table.where("leaf_transmittance"), "reflectance and transmittance add up to more than 1",
+                  "a leaf cannot give more light than it gets: lower one of them");
+  return band;
+}
+
+void read_optics(const ConfigTable& table, Species& species) {
+  require_source(table);
+  require_source(table, "bark_source");
+  species.optics_confidence =
+      table.choice("confidence", {"high", "low"}) == "high" ? Confidence::kHigh : Confidence::kLow;
+  species.material.name = species.latin;
+  auto& bands = species.material.bands;
+  for (const ConfigTable& each : table.tables("band")) {
+    const MaterialBand band = read_band(each);
+    if (std::any_of(bands.begin(), bands.end(), [&](const auto& b) { return b.band == band.band; }))
+      throw_invalid(each.where("name"), "band \"" + band.band + "\" is given twice", "remove one of them");
+    bands.push_back(band);
+  }
+  if (bands.empty())
+    throw_invalid(table.where("band"), "there is no band", "add [[optics.band]] tables, for example PAR");
+}
+
+void read_crown(const ConfigTable& table, Species& species) {
+  species.crown_length_ratio = table.number("length_ratio", {0.05, 1.0});
+  require_source(table, "length_ratio_source");
+  species.crown_shape = table.choice("shape", {"ellipsoid", "cone", "paraboloid"});
+  require_source(table, "shape_source");
+}
+
+void read_names(const ConfigTable& table, Species& species) {
+  species.code = table.text("code");
+  species.latin = table.text("latin");
+  species.also_called = table.texts("also_called");
+  for (const char* key : {"code", "latin"})
+    if (table.text(key).empty()) throw_invalid(table.where(key), "is empty", "name the species");
+  if (table.has("grammar")) species.grammar = table.directory() / table.text("grammar");
+}
+
+}  // namespace
+
+Species load_species(const std::filesystem::path& path) {
+  const ConfigTable table = ConfigTable::from_file(path);
+  Species species;
+  read_names(table, species);
+  species.height = read_height(table.table("height"));
+  species.crown_radius = read_power_law(table.table("crown_radius"));
+  read_crown(table.table("crown"), species);
+  species.foliage_mass_kg = read_power_law(table.table("foliage_mass"));
+  const ConfigTable leaf_area = table.table("specific_leaf_area");
+  require_source(leaf_area);
+  species.specific_leaf_area_m2_kg = leaf_area.number("m2_per_kg", {0.1, 100.0});
+  species.foliage = read_foliage(table.table("foliage"));
+  read_optics(table.table("optics"), species);
+  table.reject_unread();
+  return species;
+}
+
+}  // namespace sunfleck
