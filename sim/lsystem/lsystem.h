@@ -25,8 +25,24 @@ class ModuleString {
   std::span<const double> parameters(std::size_t i) const {
     return {parameters_.data() + first_[i], parameters_.data() + first_[i + 1]};
   }
+  std::span<double> mutable_parameters(std::size_t i) {
+    return {parameters_.data() + first_[i], parameters_.data() + first_[i + 1]};
+  }
   void clear();
-  void append(std::uint16_t symbol, std::span<const double> parameters);
+  void append(std::uint16_t symbol, std::span<const double> parameters) {
+    symbol_.push_back(symbol);
+    for (const double parameter : parameters) parameters_.push_back(parameter);
+    first_.push_back(static_cast<std::uint32_t>(parameters_.size()));
+  }
+  // Appends a module and returns its parameters (zero) for the caller to fill, valid until the next append.
+  std::span<double> append(std::uint16_t symbol, std::size_t parameter_count) {
+    symbol_.push_back(symbol);
+    parameters_.resize(parameters_.size() + parameter_count);
+    first_.push_back(static_cast<std::uint32_t>(parameters_.size()));
+    return {parameters_.data() + parameters_.size() - parameter_count, parameter_count};
+  }
+  void reserve(std::size_t modules, std::size_t parameters);
+  ModuleString reversed() const;
   bool operator==(const ModuleString&) const = default;
 
  private:
@@ -43,11 +59,17 @@ struct TurtleState {
 };
 using Environment = std::function<void(const TurtleState& turtle, std::span<double> parameters)>;
 
+// The frame a drawing starts in. kAbop (H = +y, L = -x, U = +z) is that of the published figures; kTree (H =
+// +z, L = -x, U = -y) stands trees upright in Sunfleck's frame. Same turtle, one turned by 90 degrees about
+// x; tropism vectors, queries and what "level" means ($) are in the frame the drawing is made in.
+enum class StartFrame { kAbop, kTree };
+
 struct DeriveOptions {
   std::uint64_t seed = 1;
   int steps = -1;                        // -1: the number the grammar states
   std::size_t max_modules = 20'000'000;  // a longer string is refused with Error(kLimitExceeded)
   Environment environment;               // needed by grammars with ?E
+  StartFrame frame = StartFrame::kTree;  // where the turtle that answers ?P ?H ?U ?L ?E starts
 };
 
 // One drawn internode. `parent` is the index of the segment below, -1 at the root of the string.
@@ -81,11 +103,6 @@ struct Drawing {
   int max_bracket_depth = 0;
 };
 
-// The frame a drawing starts in. kAbop (H = +y, L = -x, U = +z) is that of the published figures; kTree (H =
-// +z, L = -x, U = -y) stands trees upright in Sunfleck's frame. Same turtle, one turned by 90 degrees about
-// x.
-enum class StartFrame { kAbop, kTree };
-
 class Grammar {
  public:
   // Throws Error(kInvalidInput) with "file:line" for what cannot be understood: unknown construct, undeclared
@@ -101,7 +118,8 @@ class Grammar {
   // One step further; `step` numbers it for stochastic choice.
   ModuleString derive_step(const ModuleString& string, int step, const DeriveOptions& options,
                            const RunControl& control = {}) const;
-  // Timed L-systems: advance ages by `duration` (any positive number).
+  // Timed L-systems: advance ages by `duration` (any positive number). Stochastic choices repeat in every
+  // call with the same options.seed.
   ModuleString advance(const ModuleString& string, double duration, const DeriveOptions& options,
                        const RunControl& control = {}) const;
   // Applies interpretation rules on the fly and draws; the derived string stays as it is.
@@ -117,8 +135,9 @@ class Grammar {
   Grammar& operator=(Grammar&&) noexcept;
   ~Grammar();
 
+  struct Compiled;  // the parsed tables (sim/lsystem/compiled.h)
+
  private:
-  struct Compiled;
   explicit Grammar(std::unique_ptr<Compiled> compiled);
   std::unique_ptr<Compiled> compiled_;
 };
