@@ -39,8 +39,9 @@ void validate(const Camera& camera);
 // Channels are top row first, row-major; all float.
 struct Image {
   int width_px = 0, height_px = 0;
-  std::vector<float> rgb;                 // 3 per pixel, linear, radiance relative to exposure
-  std::vector<float> rgb_standard_error;  // 1 per pixel: of the mean of the three channels over the samples
+  std::vector<float> rgb;                 // 3 per pixel, linear: radiance, W m-2 sr-1 of the band shown
+  std::vector<float> rgb_standard_error;  // 1 per pixel: of the mean of the three channels over the samples;
+                                          // 0 with one sample, which tells nothing of its error
   std::vector<float> depth_m;             // 1, distance along the ray of the pixel centre; infinity for sky
   std::vector<float> normal;              // 3, world; 0 for sky
   std::vector<float> instance_id;         // 1, instance index; -1 none
@@ -53,11 +54,13 @@ struct RenderRequest {
   Illumination light;  // for ground, wood and sky
 };
 
-// Called with finished 64 x 64 tiles (pixel rectangle inside `image`), from one thread at a time.
+// Called with finished 64 x 64 tiles (pixel rectangle inside `image`), from one thread at a time; the rest of
+// the image is still being written.
 using TileSink = std::function<void(const Image& image, int x0, int y0, int x1, int y1)>;
 
-// `map` must belong to `forest` (sizes checked). Bands are shown as pictures' colours: a PAR band drives red,
-// green and blue with typical leaf colours, see README; NIR is not shown.
+// `map` must belong to `forest` (sizes and bands checked). A PAR band drives red, green and blue with typical
+// colours of leaves, bark and soil (picture_colour.h); without one, band 0 is shown in grey. A fisheye
+// picture is black outside its circle.
 Image render(const Forest& forest, const OpticsTable& optics, const LightMap& map,
              const RenderRequest& request, const RunControl& control, const TileSink& tiles = {});
 

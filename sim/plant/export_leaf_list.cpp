@@ -4,7 +4,7 @@
 #include "sim/base/error.h"
 #include "sim/plant/element_faces.h"
 #include "sim/plant/make_prototype.h"
-#include "sim/plant/whole_file.h"
+#include "sim/base/pending_file.h"
 
 namespace sunfleck {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "sim/plant/element_faces.h"
 #include "sim/plant/make_prototype.h"
-#include "sim/plant/whole_file.h"
+#include "sim/base/pending_file.h"
 
 namespace sunfleck {
 namespace {
