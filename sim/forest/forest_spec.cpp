@@ -1,0 +1,87 @@
+// The [forest] table of a scene file, key by key. Every number has its range here; the functions that use the
+// values check again what only they know.
+
+#include "sim/forest/forest_spec.h"
+
+#include "sim/base/error.h"
+
+namespace sunfleck {
+
+namespace {
+
+constexpr double kFarM = 1e7;
+
+PlantingPattern pattern_of(const ConfigTable& table) {
+  const std::string name = table.choice_or("pattern", "poisson_disc", {"poisson_disc", "rows", "random"});
+  if (name == "rows") return PlantingPattern::kRows;
+  if (name == "random") return PlantingPattern::kRandom;
+  return PlantingPattern::kPoissonDisc;
+}
+
+PlantingRule planting_rule(const ConfigTable& table) {
+  PlantingRule rule;
+  rule.species = table.text("species");
+  rule.count = static_cast<int>(table.integer("count", {1, 1e7}));
+  rule.pattern = pattern_of(table);
+  rule.spacing_m = table.number_or("spacing_m", rule.spacing_m, {0.01, 1e5});
+  rule.dbh_mean_cm = table.number_or("dbh_mean_cm", rule.dbh_mean_cm, {1, 1000});
+  rule.dbh_sd_cm = table.number_or("dbh_sd_cm", rule.dbh_sd_cm, {0, 1000});
+  return rule;
+}
+
+Terrain terrain_of(const ConfigTable& table) {
+  Terrain terrain;
+  terrain.elevation_m = table.number_or("elevation_m", 0.0, {-1e4, 1e4});
+  terrain.slope_rad = radians_from_degrees(table.number_or("slope_deg", 0.0, {0, 80}));
+  terrain.aspect_rad = radians_from_degrees(table.number_or("aspect_deg", 0.0, {0, 360}));
+  return terrain;
+}
+
+Period period_of(const ConfigTable& table) {
+  Period period;
+  period.origin_m = {table.number_or("origin_x_m", 0.0, {-kFarM, kFarM}),
+                     table.number_or("origin_y_m", 0.0, {-kFarM, kFarM})};
+  period.size_m = {table.number("size_x_m", {0.01, kFarM}), table.number("size_y_m", {0.01, kFarM})};
+  return period;
+}
+
+void read_trees(const ConfigTable& table, ForestSpec& spec) {
+  const bool has_inventory = table.has("inventory"), has_planting = table.has("planting");
+  if (has_inventory == has_planting) {
+    throw_invalid(table.where(has_inventory ? "inventory" : "planting"),
+                  has_inventory ? "there are an inventory and planting rules" : "there are no trees",
+                  "give either inventory = \"file.csv\" or [[forest.planting]] tables");
+  }
+  if (has_inventory) {
+    spec.inventory = read_inventory(table.directory() / table.text("inventory"));
+    return;
+  }
+  for (const ConfigTable& rule : table.tables("planting")) spec.planting.push_back(planting_rule(rule));
+  spec.plot_width_m = table.number("plot_width_m", {0.1, 1e5});
+  spec.plot_depth_m = table.number("plot_depth_m", {0.1, 1e5});
+}
+
+void read_geometry(const ConfigTable& table, ForestSpec& spec) {
+  const std::string trees = table.choice_or("trees", "lsystem", {"lsystem", "crown"});
+  spec.trees = trees == "crown" ? TreeSource::kCrown : TreeSource::kLsystem;
+  spec.elements_per_tree =
+      static_cast<int>(table.integer_or("elements_per_tree", spec.elements_per_tree, {1, 1e7}));
+  spec.detail = table.number_or("detail", spec.detail, {1e-4, 1});
+  spec.size_classes = static_cast<int>(table.integer_or("size_classes", spec.size_classes, {1, 1000}));
+  spec.variants = static_cast<int>(table.integer_or("variants", spec.variants, {1, 1000}));
+}
+
+}  // namespace
+
+ForestSpec read_forest_spec(const ConfigTable& table) {
+  ForestSpec spec;
+  spec.name = table.text_or("name", spec.name);
+  spec.seed = static_cast<std::uint64_t>(table.integer_or("seed", 1, {0, 9.0e15}));
+  read_geometry(table, spec);
+  if (const auto terrain = table.table_if("terrain")) spec.terrain = terrain_of(*terrain);
+  if (const auto period = table.table_if("period")) spec.period = period_of(*period);
+  read_trees(table, spec);
+  return spec;
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,155 @@
+// TreeSource::kLsystem: the trees of a species are sorted by diameter and cut into classes of equal numbers;
+// each class has `variants` prototypes of its mean diameter. A tree takes a variant and a yaw by hash and is
+// scaled from the prototype's height to its own, by 15 % at most: beyond that a scaled tree has leaves and
+// diameters of another species, and more size classes are the better way.
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "sim/base/error.h"
+#include "sim/base/parallel.h"
+#include "sim/base/random.h"
+#include "sim/forest/stand.h"
+#include "sim/forest/tree_size.h"
+
+namespace sunfleck {
+
+namespace {
+
+constexpr double kMostScaling = 0.15;
+
+// Which prototype: ordered by species name, so that the order of the inventory does not matter.
+struct Kind {
+  std::string latin;
+  int size_class = 0, variant = 0;
+  auto operator<=>(const Kind&) const = default;
+};
+
+struct Plan {
+  std::vector<Kind> kind_of_tree;
+  std::map<std::pair<std::string, int>, double> mean_dbh_cm;  // of (species, size class)
+  std::map<Kind, const Species*> kinds;                       // that are used
+};
+
+std::uint64_t hash_of(const std::string& text) {
+  std::uint64_t hash = text.size();
+  for (const char c : text) hash = mix_seed(hash, static_cast<unsigned char>(c));
+  return hash;
+}
+
+std::uint64_t seed_of_tree(const ForestSpec& spec, const InventoryTree& tree) {
+  return mix_seed(mix_seed(spec.seed, hash_of("tree")), tree.id.value);
+}
+
+// Trees (indexes) of each species, thin ones first.
+std::map<std::string, std::vector<std::size_t>> trees_by_species(const std::vector<StandTree>& stand) {
+  std::map<std::string, std::vector<std::size_t>> groups;
+  for (std::size_t i = 0; i < stand.size(); ++i) groups[stand[i].species->latin].push_back(i);
+  for (auto& [latin, trees] : groups) {
+    std::sort(trees.begin(), trees.end(), [&](std::size_t a, std::size_t b) {
+      const InventoryTree &first = stand[a].tree, &second = stand[b].tree;
+      return std::tie(first.dbh_cm, first.id) < std::tie(second.dbh_cm, second.id);
+    });
+  }
+  return groups;
+}
+
+void plan_class(const ForestSpec& spec, const std::vector<StandTree>& stand, std::vector<std::size_t> members,
+                const Species& species, int size_class, Plan& plan) {
+  double sum_cm = 0;
+  for (const std::size_t i : members) {
+    const std::uint64_t hash = seed_of_tree(spec, stand[i].tree);
+    const int variant = static_cast<int>(hash % static_cast<std::uint64_t>(spec.variants));
+    plan.kind_of_tree[i] = {species.latin, size_class, variant};
+    plan.kinds[plan.kind_of_tree[i]] = &species;
+    sum_cm += stand[i].tree.dbh_cm;
+  }
+  plan.mean_dbh_cm[{species.latin, size_class}] = sum_cm / static_cast<double>(members.size());
+}
+
+Plan plan_prototypes(const ForestSpec& spec, const std::vector<StandTree>& stand) {
+  Plan plan;
+  plan.kind_of_tree.resize(stand.size());
+  for (const auto& [latin, trees] : trees_by_species(stand)) {
+    const std::size_t classes = std::min(static_cast<std::size_t>(spec.size_classes), trees.size());
+    const auto cut = [&, n = trees.size()](std::size_t c) {
+      return trees.begin() + static_cast<std::ptrdiff_t>(c * n / classes);
+    };
+    for (std::size_t c = 0; c < classes; ++c) {
+      plan_class(spec, stand, {cut(c), cut(c + 1)}, *stand[trees[0]].species, static_cast<int>(c), plan);
+    }
+  }
+  return plan;
+}
+
+Prototype grow_kind(const ForestSpec& spec, const Plan& plan, const Kind& kind, const RunControl& control) {
+  const Species& species = *plan.kinds.at(kind);
+  const double dbh_cm = plan.mean_dbh_cm.at({kind.latin, kind.size_class});
+  const auto number = static_cast<std::uint64_t>(kind.size_class * spec.variants + kind.variant);
+  const std::uint64_t seed = mix_seed(mix_seed(spec.seed, hash_of(kind.latin)), number);
+  const RunControl stop_only{control.stop, {}};  // progress is counted in prototypes
+  Prototype prototype = grow_prototype(species, expected_size(species, dbh_cm), seed, spec.detail, stop_only);
+  prototype.name = kind.latin + " class " + std::to_string(kind.size_class + 1) + " variant " +
+                   std::to_string(kind.variant + 1);
+  return prototype;
+}
+
+void check_options(const ForestSpec& spec, const std::vector<StandTree>& stand) {
+  if (spec.size_classes < 1 || spec.variants < 1 || spec.size_classes > 1000 || spec.variants > 1000) {
+    throw_invalid("forest.size_classes, forest.variants", "are not both from 1 to 1000", "1 to 1000 each");
+  }
+  if (!(spec.detail > 0 && spec.detail <= 1)) {
+    throw_invalid("forest.detail", "is " + std::to_string(spec.detail), "above 0, at most 1");
+  }
+  for (const StandTree& entry : stand) {
+    if (!entry.species->grammar.empty()) continue;
+    throw_invalid(tree_label(entry.tree), entry.species->latin + " has no grammar",
+                  "use trees = \"crown\" for this stand");
+  }
+}
+
+// Number of trees that wanted more scaling than they got.
+std::size_t place_instances(const ForestSpec& spec, const std::vector<StandTree>& stand, const Plan& plan,
+                            Forest& forest) {
+  std::map<Kind, std::uint32_t> index_of_kind;
+  for (const auto& [kind, species] : plan.kinds) {
+    index_of_kind.emplace(kind, static_cast<std::uint32_t>(index_of_kind.size()));
+  }
+  std::vector<double> height_m;
+  for (const Prototype& prototype : forest.prototypes) height_m.push_back(measure(prototype).height_m);
+  std::size_t held = 0;
+  for (std::size_t i = 0; i < stand.size(); ++i) {
+    const InventoryTree& tree = stand[i].tree;
+    const PrototypeId prototype{index_of_kind.at(plan.kind_of_tree[i])};
+    const double wanted = tree_height_m(tree, *stand[i].species) / height_m[prototype.value];
+    const double scale = std::clamp(wanted, 1.0 - kMostScaling, 1.0 + kMostScaling);
+    held += wanted != scale ? 1 : 0;
+    RandomStream random(seed_of_tree(spec, tree), 0, RandomPurpose::kPlanting);
+    forest.instances.push_back({stem_foot_m(forest.terrain, tree), prototype,
+                                static_cast<float>(random.uniform(0.0, 2.0 * kPi)), static_cast<float>(scale),
+                                tree.id});
+  }
+  return held;
+}
+
+}  // namespace
+
+void grow_lsystems(const ForestSpec& spec, const std::vector<StandTree>& stand, const RunControl& control,
+                   Forest& forest) {
+  check_options(spec, stand);
+  const Plan plan = plan_prototypes(spec, stand);
+  std::vector<Kind> kinds;
+  for (const auto& [kind, species] : plan.kinds) kinds.push_back(kind);
+  forest.prototypes.resize(kinds.size());
+  for_each_chunk(kinds.size(), 1, control, kGrowingStage, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) forest.prototypes[i] = grow_kind(spec, plan, kinds[i], control);
+  });
+  const std::size_t held = place_instances(spec, stand, plan, forest);
+  if (held == 0) return;
+  control.report(std::to_string(held) + " of " + std::to_string(stand.size()) +
+                     " trees held at 15 % scaling: more size_classes would meet their heights",
+                 1.0);
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,29 @@
+// What the geometry of one tree of an inventory shall measure: its row where it was measured, the allometry
+// of its species where it was not.
+#pragma once
+
+#include <string>
+
+#include "sim/forest/forest_spec.h"
+#include "sim/plant/make_prototype.h"
+
+namespace sunfleck {
+
+// "tree 209 (Quercus robur)", for error messages.
+std::string tree_label(const InventoryTree& tree);
+
+// Throws Error(kInvalidInput) naming the tree if a measure is not finite or out of range (rows can come from
+// requests, not only from files).
+void validate(const InventoryTree& tree);
+
+double tree_height_m(const InventoryTree& tree, const Species& species);
+
+// Missing: base by the species' crown ratio; widest at a third of the crown's length above its base; a radius
+// as the mean of those that are measured, else by allometry. A side without crown (radius 0) counts as 1 cm.
+// Throws where the row and allometry give no crown.
+CrownShape tree_crown(const InventoryTree& tree, const Species& species);
+
+// Leaf area density times crown volume if the density is known, else by allometry; throws if there is none.
+double tree_leaf_area_m2(const InventoryTree& tree, const Species& species, const CrownShape& crown);
+
+}  // namespace sunfleck
