@@ -1,0 +1,99 @@
+// Everything of a forest that takes light away, flattened for leaf-area grids: foliage elements and wood as
+// small projected areas, each with the grid cells it lies in. Made once per scene, used for any direction.
+//
+// Frame: the world moved to the middle of the scene (so that a scene at coordinates of 1e6 m loses nothing to
+// rounding); in a periodic scene moved to the corner of the period and sheared along z by the slope of the
+// ground, which makes copies that follow the ground exact repetitions and leaves rays straight.
+//
+// Projected areas, towards a unit vector w:
+//   flat element     A |n.w|
+//   shoot            S (1 - exp(-A / (2 S))), S the silhouette of its cylinder: needles turned evenly,
+//   filling
+//                    the cylinder, that shade each other; A/2 for a thin shoot
+//   wood segment     (r_from + r_to) |axis x w|, opaque, without end caps
+//   wood triangle    A |n.w| / 2: meshes are closed surfaces that a ray enters and leaves
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "lighting/depth/grid_layout.h"
+#include "sim/base/run_control.h"
+#include "sim/base/vec.h"
+#include "sim/forest/forest.h"
+
+namespace sunfleck {
+
+// A foliage element. `axis`: unit front normal of a flat element, half the axis (metres) of a shoot; both are
+// world directions.
+struct FieldElement {
+  Vec3f centre_m{0};  // in the field's frame, inside the base period
+  Vec3f axis{0, 0, 1};
+  float area_m2 = 0;
+  float shoot_radius_m = 0;  // 0: flat
+  std::uint32_t cell = 0;    // of the centre
+  bool below_ground = false;
+
+  bool is_shoot() const { return shoot_radius_m > 0.0f; }
+};
+
+double projected_area_m2(const FieldElement& element, const Vec3& direction);
+// Share of the light from `direction` that the mean needle of a shoot gets past the other needles of its own
+// shoot; 1 for a flat element.
+double own_transmittance(const FieldElement& element, const Vec3& direction);
+
+// A wood segment (width > 0; `vector` its axis) or triangle (width 0; `vector` half its area vector).
+struct FieldWood {
+  Vec3f vector{0};
+  float width_m = 0;
+};
+double projected_area_m2(const FieldWood& wood, const Vec3& direction);
+
+// A part of a blocker that is larger than a cell, or of wood: `share` of its area lies in `cell`.
+struct BlockerPiece {
+  std::uint32_t blocker = 0, cell = 0;
+  float share = 1;
+};
+
+struct BlockerFieldOptions {
+  double cell_m = 0;  // 0: leaf_cell_size()
+  // Coarser cells instead of more than this, or than 512 per element where that is more than 8 million: a few
+  // leaves far apart are no reason to clear a quarter of a gigabyte per direction.
+  std::uint64_t max_cells = 64ull << 20;
+};
+
+class BlockerField {
+ public:
+  // `forest` is needed during construction only. At least one foliage element. Throws Error(kLimitExceeded)
+  // above 4e9 elements.
+  BlockerField(const Forest& forest, const BlockerFieldOptions& options, const RunControl& control);
+
+  const std::vector<FieldElement>& elements() const { return elements_; }  // in ForestIndex order
+  const std::vector<FieldWood>& wood() const { return wood_; }
+  const std::vector<BlockerPiece>& element_pieces() const { return element_pieces_; }  // by rising blocker
+  const std::vector<BlockerPiece>& wood_pieces() const { return wood_pieces_; }
+  const GridLayout& layout() const { return layout_; }
+  // Area-weighted mean side of an element: root of its area, for shoots of its mean silhouette.
+  double mean_side_m() const { return mean_side_m_; }
+
+  Vec3 field_from_world(const Vec3& point_m) const;
+  // Of a direction; keeps lengths of parameters: p + t w maps to field(p) + t field(w).
+  Vec3 field_direction(const Vec3& direction) const;
+  // True where a ray in `direction` ends on the ground plane sooner or later.
+  bool ends_on_ground(const Vec3& direction) const;
+
+ private:
+  friend class BlockerFieldBuilder;
+  std::vector<FieldElement> elements_;
+  std::vector<FieldWood> wood_;
+  std::vector<BlockerPiece> element_pieces_, wood_pieces_;
+  GridLayout layout_;
+  double mean_side_m_ = 0;
+  Vec3 origin_m_{0};
+  Vec2 shear_{0};  // metres of height per metre east and north
+  Vec3 ground_normal_{0, 0, 1};
+  std::optional<Vec2> period_m_;
+};
+
+}  // namespace sunfleck

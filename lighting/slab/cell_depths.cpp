@@ -1,0 +1,170 @@
+// Depths of all cells in all sample directions, axis by axis; see cell_depths.h.
+#include "lighting/slab/cell_depths.h"
+
+#include <cmath>
+
+#include "lighting/slab/map_table.h"
+#include "sim/base/parallel.h"
+
+namespace sunfleck {
+namespace {
+
+constexpr double kMapBytesAtOnce = 512e6;
+
+// The compensation factor compares depths by ratios: where nothing is in the way all have to be exactly 0,
+// not the faint edge of some leaf.
+float stored_depth(double depth) { return depth < 1e-6 ? 0.0f : static_cast<float>(depth); }
+
+// In the maps of the tree itself, for one of its cells.
+struct OwnCell {
+  float before = 0, behind = 0, transmission = 1;
+};
+
+std::vector<OwnCell> measure_own_cells(const Prototype& prototype, const PrototypeGrid& grid,
+                                       const OpacityMap& map, const RunControl& control) {
+  std::vector<OwnCell> cells(grid.cells());
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    if (c % 16 == 0) control.check();
+    double before = 0.0, behind = 0.0, transmission = 0.0;
+    for (std::uint32_t k = grid.first[c]; k < grid.first[c + 1]; ++k) {
+      const OpticalDepths depths = map.around(prototype.foliage[grid.elements[k]]);
+      before += depths.before;
+      behind += depths.behind;
+      transmission += std::exp(-depths.before);
+    }
+    const double n = grid.first[c + 1] - grid.first[c];
+    cells[c] = {static_cast<float>(before / n), static_cast<float>(behind / n),
+                static_cast<float>(transmission / n)};
+  }
+  return cells;
+}
+
+// One run of the preprocessing.
+class Measurement {
+ public:
+  Measurement(const Forest& forest, const ForestGrids& grids, int map_resolution, const RunControl& control,
+              CellDepths& result)
+      : forest_(forest),
+        grids_(grids),
+        resolution_(map_resolution),
+        control_(control),
+        result_(result),
+        origin_m_(forest_origin(forest)) {
+    for (const Prototype& p : forest.prototypes) bounds_.push_back(prototype_bounds(p));
+  }
+
+  void run() {
+    const std::size_t axes = result_.directions.axes();
+    for (std::size_t first = 0; first < axes;) {
+      std::size_t last = first;
+      std::vector<MapWish> wishes = wishes_of(last++);
+      for (; last < axes; ++last) {  // as many axes at once as their maps find room
+        std::vector<MapWish> more = wishes_of(last);
+        if (!have_room(wishes.size() + more.size())) break;
+        wishes.insert(wishes.end(), more.begin(), more.end());
+      }
+      measure_axes(first, last, wishes);
+      first = last;
+    }
+  }
+
+ private:
+  bool have_room(std::size_t maps) const {
+    const double side = resolution_ + 5.0;
+    return static_cast<double>(maps) * side * side * side * sizeof(float) <= kMapBytesAtOnce;
+  }
+
+  int step_of(std::size_t instance) const {
+    return result_.directions.step_of(forest_.instances[instance].yaw_rad);
+  }
+
+  // Without repetition inside the axis.
+  std::vector<MapWish> wishes_of(std::size_t axis) const {
+    const SampleDirections& d = result_.directions;
+    std::vector<char> seen(forest_.prototypes.size() * d.keys(), 0);
+    std::vector<MapWish> wishes;
+    for (std::size_t i = 0; i < forest_.instances.size(); ++i) {
+      const std::uint32_t prototype = forest_.instances[i].prototype.value;
+      const std::size_t key = d.key(axis, step_of(i));
+      if (std::exchange(seen[prototype * d.keys() + key], 1) == 0)
+        wishes.push_back({prototype, key, d.local(axis, step_of(i))});
+    }
+    return wishes;
+  }
+
+  void measure_axes(std::size_t first, std::size_t last, const std::vector<MapWish>& wishes) {
+    const MapTable maps(forest_, wishes, resolution_, control_, "opacity maps");
+    std::vector<std::vector<OwnCell>> own(maps.size());
+    for_each_chunk(maps.size(), 1, control_, {}, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t m = begin; m < end; ++m)
+        own[m] =
+            measure_own_cells(forest_.prototypes[maps.prototype(m)], grids_.prototypes[maps.prototype(m)],
+                              maps.map(m), RunControl{control_.stop, {}});
+    });
+    for (const MapWish& w : wishes) {
+      const OpacityMap& map = maps.at(w.prototype, w.key);
+      result_.turn_ratio[w.prototype * result_.directions.keys() + w.key] = static_cast<float>(
+          map.leaf_projection() > 0.0 ? map.mean_square_cosine() / map.leaf_projection() : 2.0 / 3.0);
+    }
+    for (std::size_t axis = first; axis < last; ++axis) sum_over_forest(axis, maps, own);
+  }
+
+  // [SPP] Eq. 31 for all cells and one axis.
+  void sum_over_forest(std::size_t axis, const MapTable& maps, const std::vector<std::vector<OwnCell>>& own) {
+    const SampleDirections& d = result_.directions;
+    std::vector<PlacedMap> placed;
+    std::vector<std::size_t> map_of;
+    for (std::size_t i = 0; i < forest_.instances.size(); ++i) {
+      const Instance& instance = forest_.instances[i];
+      const std::uint32_t prototype = instance.prototype.value;
+      map_of.push_back(maps.index(prototype, d.key(axis, step_of(i))));
+      const double yaw = d.is_vertical(axis) ? static_cast<double>(instance.yaw_rad) : d.yaw_rad(step_of(i));
+      placed.push_back(place_map(instance, maps.map(map_of[i]), bounds_[prototype], yaw, origin_m_));
+    }
+    const OpacityNeighbours neighbours(forest_, placed, d.upward(axis));
+    result_.complete = result_.complete && neighbours.complete();
+    for_each_chunk(forest_.instances.size(), 1, control_, {}, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) fill_instance(i, axis, placed[i], neighbours, own[map_of[i]]);
+    });
+  }
+
+  void fill_instance(std::size_t i, std::size_t axis, const PlacedMap& placed,
+                     const OpacityNeighbours& neighbours, const std::vector<OwnCell>& own) {
+    const std::size_t axes = result_.directions.axes();
+    const PrototypeGrid& grid = grids_.prototypes[forest_.instances[i].prototype.value];
+    const std::vector<Neighbour> around = neighbours.around(i);
+    for (std::size_t c = 0; c < grid.cells(); ++c) {
+      if (c % 64 == 0) control_.check();
+      const OpticalDepths beyond = neighbours.at(around, placed.world_from_tree(grid.centre_m[c]));
+      const std::size_t cell = grids_.first_cell[i] + c;
+      float* depth = result_.depth.data() + cell * 2 * axes;
+      depth[axis] = stored_depth(own[c].before + beyond.before);
+      depth[axes + axis] = stored_depth(own[c].behind + beyond.behind);
+      result_.transmission[cell * axes + axis] =
+          own[c].transmission * static_cast<float>(std::exp(-beyond.before));
+    }
+  }
+
+  const Forest& forest_;
+  const ForestGrids& grids_;
+  int resolution_;
+  const RunControl& control_;
+  CellDepths& result_;
+  Vec3 origin_m_;
+  std::vector<Box> bounds_;
+};
+
+}  // namespace
+
+CellDepths measure_cell_depths(const Forest& forest, const ForestGrids& grids, int sample_directions,
+                               int map_resolution, const RunControl& control) {
+  const double base_yaw_rad = forest.instances.empty() ? 0.0 : forest.instances.front().yaw_rad;
+  CellDepths result{SampleDirections(sample_directions, base_yaw_rad), {}, {}, {}, true};
+  result.depth.resize(grids.cells() * result.directions.directions());
+  result.transmission.resize(grids.cells() * result.directions.axes());
+  result.turn_ratio.assign(forest.prototypes.size() * result.directions.keys(), 2.0f / 3.0f);
+  Measurement(forest, grids, map_resolution, control, result).run();
+  return result;
+}
+
+}  // namespace sunfleck
