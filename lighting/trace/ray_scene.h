@@ -13,7 +13,9 @@ enum class HitKind : std::uint8_t { kSky, kFoliage, kWood, kWoodMesh, kGround };
 
 struct RayHit {
   HitKind kind = HitKind::kSky;
-  bool front = false;          // foliage: the front face was hit (for a shoot: one of its two faces by lot)
+  // Foliage: the front face was hit (for a shoot: one of its two faces by lot). Wood: its outer side. Wood
+  // mesh: the side from which its corners run counter-clockwise. Ground: its upper side.
+  bool front = false;
   std::uint32_t instance = 0;  // index into Forest::instances (of the original where a wrapped copy was hit)
   std::uint32_t local = 0;     // foliage element, wood segment or triangle of its prototype
   double distance_m = 0;
@@ -21,11 +23,19 @@ struct RayHit {
   Vec3 normal{0};      // unit, of the surface hit, turned towards the ray's origin
 };
 
+// The surface a ray starts on, so that it does not hit the place it leaves. kSky: none. Shoots are no
+// surfaces: a ray from a needle may meet other needles of its own shoot.
+struct RayStart {
+  HitKind kind = HitKind::kSky;
+  bool front = true;  // wood: from its outer side
+  std::uint32_t instance = 0, local = 0;
+};
+
 // An Embree scene over the instances of a forest. Immutable; all calls are const and safe from many threads.
 // `forest` must outlive it. Shoots are small clouds of needles: a ray flies through their cylinder and meets
 // a needle with a chance given by path length times half the needle area density, drawn from the ray itself
 // (same ray, same answer). In a periodic forest rays go on on the other side of the cell, at most max_wraps
-// times, then count as sky (upwards) or ground (downwards).
+// times, then count as sky (upwards) or ground (downwards). Directions are unit vectors.
 class RayScene {
  public:
   struct Options {
@@ -37,9 +47,11 @@ class RayScene {
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;
 
-  RayHit closest_hit(const Vec3& origin_m, const Vec3& direction, double min_distance_m = 0.0) const;
+  RayHit closest_hit(const Vec3& origin_m, const Vec3& direction, double min_distance_m = 0.0,
+                     const RayStart& from = {}) const;
   // True if anything (foliage, wood, ground) lies on the way to infinity.
-  bool occluded(const Vec3& origin_m, const Vec3& direction, double min_distance_m = 0.0) const;
+  bool occluded(const Vec3& origin_m, const Vec3& direction, double min_distance_m = 0.0,
+                const RayStart& from = {}) const;
 
   std::size_t copies() const;        // wrapped copies added for the period
   std::size_t memory_bytes() const;  // of Embree's structures

@@ -3,14 +3,12 @@
 
 #include "sim/grid/sealed_file.h"
 
-#include <unistd.h>
-
 #include <array>
-#include <atomic>
 #include <fstream>
 #include <string>
 
 #include "sim/base/error.h"
+#include "sim/base/pending_file.h"
 #include "sim/base/sha256.h"
 
 namespace sunfleck {
@@ -56,13 +54,6 @@ std::string hash_of_first(std::ifstream& in, std::uintmax_t size) {
   throw_invalid(path.string(), "the file is truncated or was changed by another program", "write it again");
 }
 
-std::filesystem::path temporary_name_beside(const std::filesystem::path& path) {
-  static std::atomic<unsigned> counter{0};
-  std::filesystem::path name = path;
-  name += ".part-" + std::to_string(::getpid()) + "-" + std::to_string(++counter);
-  return name;
-}
-
 void append_seal(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   const std::string seal =
@@ -74,32 +65,25 @@ void append_seal(const std::filesystem::path& path) {
   out.close();
 }
 
-void write_then_rename(const std::filesystem::path& part, const std::filesystem::path& path,
-                       const std::function<void(std::ostream&)>& write) {
+void write_and_seal(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write) {
   std::ofstream out;
   out.exceptions(std::ios::badbit | std::ios::failbit);
-  out.open(part, std::ios::binary | std::ios::trunc);
+  out.open(path, std::ios::binary | std::ios::trunc);
   write(out);
   out.close();
-  append_seal(part);
-  std::filesystem::rename(part, path);
+  append_seal(path);
 }
 
 }  // namespace
 
 void write_sealed(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write) {
-  const std::filesystem::path part = temporary_name_beside(path);
-  std::string problem;
+  PendingFile file(path);
   try {
-    write_then_rename(part, path, write);
-    return;
+    write_and_seal(file.path(), write);
   } catch (const std::exception& failure) {
-    problem = failure.what();
+    throw_cannot_write(path, failure.what());
   }
-  std::error_code ignored;
-  std::filesystem::remove(part, ignored);
-  throw Error(ErrorKind::kInputOutput, path.string(), "cannot write the file (" + problem + ")",
-              "check the folder, its permissions and the free space");
+  file.commit();
 }
 
 void check_seal(const std::filesystem::path& path, SealCheck check) {

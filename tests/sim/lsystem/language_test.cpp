@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/lsystem/lsystem.h"
+#include "tests/support/golden.h"
 
 namespace sunfleck::lsystem {
 namespace {
@@ -115,6 +116,18 @@ TEST(Determinism, SameSeedSameStringOtherSeedOther) {
       "--> A(x) : 1\n";
   EXPECT_EQ(derived(text, 5, 7), derived(text, 5, 7));
   EXPECT_NE(derived(text, 5, 7), derived(text, 5, 8));
+}
+
+// Every grammar we ship can be read, derived with its own constants and drawn.
+TEST(ShippedGrammars, AllDraw) {
+  int grammars = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(test::source_dir() / "configs/grammars")) {
+    if (entry.path().extension() != ".lsys") continue;
+    const Grammar grammar = Grammar::load(entry.path());
+    EXPECT_FALSE(grammar.interpret(grammar.derive({}), StartFrame::kTree).segments.empty()) << entry.path();
+    ++grammars;
+  }
+  EXPECT_GE(grammars, 3);
 }
 
 TEST(Stopping, IsHeard) {
