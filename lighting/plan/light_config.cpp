@@ -1,0 +1,121 @@
+#include "lighting/plan/light_config.h"
+
+#include <cmath>
+
+#include "lighting/sky/sun_position.h"
+#include "sim/base/error.h"
+
+namespace sunfleck {
+namespace {
+
+Vec3 read_sun_by_place(const ConfigTable& sun) {
+  const Place place{sun.number("latitude_deg", {-90, 90}), sun.number("longitude_deg", {-180, 180}),
+                    sun.number_or("elevation_m", 0, {-500, 9000}),
+                    sun.number_or("pressure_hpa", 1013.25, {0, 1100}),
+                    sun.number_or("temperature_c", 10, {-90, 60})};
+  return sun_position(place, parse_utc_time(sun.text("time"), sun.where("time"))).to_sun();
+}
+
+Vec3 read_to_sun(const ConfigTable& sun) {
+  if (sun.has("latitude_deg") || sun.has("time")) return read_sun_by_place(sun);
+  return direction_from_azimuth_zenith(radians_from_degrees(sun.number("azimuth_deg", {-360, 360})),
+                                       radians_from_degrees(sun.number("zenith_deg", {0, 180})));
+}
+
+BandLight read_strengths(const ConfigTable& band, const Vec3& to_sun) {
+  constexpr Range kStrength{0, 1e6};
+  BandLight light;
+  light.diffuse_horizontal_w_m2 = band.number_or("diffuse_horizontal_w_m2", 0, kStrength);
+  if (band.has("direct_horizontal_w_m2")) {
+    if (band.has("beam_normal_w_m2"))
+      throw_invalid(band.where("beam_normal_w_m2"), "direct_horizontal_w_m2 is given as well",
+                    "one of the two");
+    const double horizontal = band.number("direct_horizontal_w_m2", kStrength);
+    if (horizontal > 0 && to_sun.z < 1e-3)
+      throw_invalid(band.where("direct_horizontal_w_m2"), "the sun is at or below the horizon",
+                    "beam_normal_w_m2, or 0");
+    light.beam_normal_w_m2 = horizontal > 0 ? horizontal / to_sun.z : 0.0;
+  } else {
+    light.beam_normal_w_m2 = band.number_or("beam_normal_w_m2", 0, kStrength);
+  }
+  return light;
+}
+
+OpticsOverride read_override(const ConfigTable& table) {
+  constexpr Range kShare{0, 1};
+  OpticsOverride o{table.text_or("material", "*"), table.text("band"), {}};
+  LeafOptics& leaf = o.optics.leaf;
+  const auto both = [&](const char* key, double& front, double& back) {
+    const std::string name(key);
+    if (table.has(name)) {
+      front = back = table.number(name, kShare);
+    } else {
+      front = table.number(name + "_front", kShare);
+      back = table.number(name + "_back", kShare);
+    }
+  };
+  both("leaf_reflectance", leaf.reflectance_front, leaf.reflectance_back);
+  both("leaf_transmittance", leaf.transmittance_front, leaf.transmittance_back);
+  o.optics.bark_reflectance = table.number_or("bark_reflectance", 0, kShare);
+  if (leaf.albedo_front() > 1 || leaf.albedo_back() > 1)
+    throw_invalid(table.where("leaf_transmittance"), "leaf reflectance + transmittance is over 1",
+                  "r + t <= 1");
+  return o;
+}
+
+ReferenceOptions read_reference(const ConfigTable& table) {
+  ReferenceOptions o;
+  o.seed = static_cast<std::uint64_t>(table.integer_or("seed", 1, {0, 9e15}));
+  o.rays_per_face = static_cast<int>(table.integer_or("rays_per_face", o.rays_per_face, {1, 65536}));
+  o.sun_rays_per_element =
+      static_cast<int>(table.integer_or("sun_rays_per_element", o.sun_rays_per_element, {1, 65536}));
+  o.target_relative_error = table.number_or("target_relative_error", 0, {0, 1});
+  o.max_rays_per_face =
+      static_cast<int>(table.integer_or("max_rays_per_face", o.max_rays_per_face, {1, 65536}));
+  o.ground_cell_m = table.number_or("ground_cell_m", 0, {0, 1e5});
+  const double gib = table.number_or("memory_limit_gib", 8, {0.001, 4096});
+  o.memory_limit_bytes = static_cast<std::uint64_t>(std::llround(gib * 1024.0 * 1024.0 * 1024.0));
+  return o;
+}
+
+SppOptions read_spp(const ConfigTable& table) {
+  SppOptions o;
+  o.sample_directions =
+      static_cast<int>(table.integer_or("sample_directions", o.sample_directions, {16, 22}));
+  if (o.sample_directions != 16 && o.sample_directions != 22)
+    throw_invalid(table.where("sample_directions"), "must be 16 or 22", "16 or 22");
+  o.map_resolution = static_cast<int>(table.integer_or("map_resolution", o.map_resolution, {8, 1024}));
+  o.grid_resolution = static_cast<int>(table.integer_or("grid_resolution", o.grid_resolution, {2, 64}));
+  return o;
+}
+
+}  // namespace
+
+LightRequest read_light_request(const ConfigTable& table) {
+  LightRequest request;
+  request.method = method_from_string(table.text_or("method", "reference"), table.where("method"));
+  Illumination& light = request.light;
+  if (const auto sun = table.table_if("sun")) {
+    light.to_sun = read_to_sun(*sun);
+    light.sun_half_angle_rad = radians_from_degrees(sun->number_or("half_angle_deg", 0.265, {0, 5}));
+  }
+  if (const auto sky = table.table_if("sky"))
+    light.sky = sky->choice("model", {"uniform", "standard_overcast"}) == "uniform"
+                    ? SkyModel::kUniform
+                    : SkyModel::kStandardOvercast;
+  for (const ConfigTable& band : table.tables("bands")) {
+    request.optics.bands.push_back(band.text("name"));
+    request.optics.soil_albedo.push_back(band.number_or("soil_albedo", 0.15, {0, 1}));
+    light.bands.push_back(read_strengths(band, light.to_sun));
+  }
+  if (light.bands.empty())
+    throw_invalid(table.where("bands"), "no band is given", "at least one [[light.bands]] with a name");
+  for (const ConfigTable& o : table.tables("optics")) request.optics.overrides.push_back(read_override(o));
+  if (const auto knobs = table.table_if("reference")) request.reference = read_reference(*knobs);
+  if (const auto knobs = table.table_if("spp")) request.spp = read_spp(*knobs);
+  if (const auto knobs = table.table_if("envelope"))
+    request.envelope.cell_m = knobs->number_or("cell_m", 0, {0, 1000});
+  return request;
+}
+
+}  // namespace sunfleck

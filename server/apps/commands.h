@@ -1,0 +1,80 @@
+// What each command of `sunfleck` was asked to do, and the function that does it. Every function throws Error
+// for what the user can mend and returns only when it did what was asked.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sim/base/run_control.h"
+
+namespace sunfleck {
+
+struct GrowOptions {
+  std::filesystem::path scene, lsystem, output, configs;
+  int steps = -1;
+  std::uint64_t seed = 1;
+  bool print = false;
+};
+void run_grow(const GrowOptions& options, const RunControl& control);
+
+struct LightOptions {
+  std::filesystem::path forest, scene, netcdf, element_csv, tree_csv;
+  std::string method;  // empty: as the scene file says
+  int threads = 0;
+};
+void run_light(const LightOptions& options, const RunControl& control);
+
+struct RenderOptions {
+  std::filesystem::path forest, scene, light_map, png, exr;
+};
+void run_render(const RenderOptions& options, const RunControl& control);
+
+struct InfoOptions {
+  std::filesystem::path file;
+};
+void run_info(const InfoOptions& options);
+
+struct ImportOptions {
+  std::filesystem::path file, output, configs, instances;
+  std::string format;                                       // leaves, obj, ply; empty: by extension
+  std::string material = "leaf";                            // leaf lists
+  std::vector<std::string> leaf_materials, wood_materials;  // "file material=forest material"
+  std::vector<double> period;                               // x0 y0 size_x size_y, m
+};
+void run_import(const ImportOptions& options);
+
+struct ExportOptions {
+  std::filesystem::path forest, output;
+  std::string format = "obj";  // obj, leaves, trees
+  std::size_t prototype = 0;
+};
+void run_export(const ExportOptions& options);
+
+struct BenchOptions {
+  std::string scenes = "all", bands = "all";
+  int elements = 40000;
+  int reference_rays = 256;
+  std::uint64_t seed = 1;
+  int threads = 1;
+  int repeats = 3;
+  std::filesystem::path csv, configs;
+};
+void run_bench(const BenchOptions& options, const RunControl& control);
+
+struct ServeOptions {
+  std::filesystem::path config, configs;
+  std::string socket;
+};
+void run_serve(const ServeOptions& options);
+
+struct ClientOptions {
+  std::string action;  // info, create, list, delete, light, render
+  std::string address, scene_name;
+  std::filesystem::path scene, netcdf, element_csv, tree_csv, png, exr, configs;
+  std::string method;
+};
+void run_client(const ClientOptions& options, const RunControl& control);
+
+}  // namespace sunfleck

@@ -1,0 +1,194 @@
+// sunfleck: the command line. Says what can be asked and hands each request on; computes nothing.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "lighting/plan/light_request.h"
+#include "server/apps/commands.h"
+#include "server/apps/terminal.h"
+#include "sim/base/version.h"
+
+namespace sunfleck {
+namespace {
+
+void add_grow(CLI::App& app, GrowOptions& o) {
+  CLI::App* c =
+      app.add_subcommand("grow", "Grow a forest, or a single plant from an L-system, into a .vdb file");
+  c->add_option("scene", o.scene, "Scene file (TOML) with a [forest] table");
+  c->add_option("--lsystem", o.lsystem, "L-system grammar (.lsys) to grow instead of a scene");
+  c->add_option("-o,--output", o.output, "File to write: .vdb");
+  c->add_option("--steps", o.steps, "Derivation steps; default: what the grammar says");
+  c->add_option("--seed", o.seed, "Seed of an L-system's random choices")->capture_default_str();
+  c->add_flag("--print", o.print, "Print the derived string of an L-system");
+  c->add_option("--configs", o.configs, "Folder with species/ and grammars/");
+  c->footer(
+      "Examples:\n  sunfleck grow configs/scenes/mixed_stand.toml -o stand.vdb\n"
+      "  sunfleck grow --lsystem configs/grammars/beech.lsys --seed 7 -o beech.vdb\n"
+      "  sunfleck grow --lsystem koch.lsys --steps 3 --print");
+}
+
+void add_light(CLI::App& app, LightOptions& o) {
+  CLI::App* c = app.add_subcommand("light", "Compute the light on every foliage element of a forest");
+  c->add_option("forest", o.forest, "Forest (.vdb)")->required();
+  c->add_option("--scene", o.scene, "Scene file (TOML) with a [light] table")->required();
+  c->add_option("--method", o.method,
+                "One of reference, single_scattering, spp, spp_g, envelope, envelope_marched");
+  c->add_option("-o,--output", o.netcdf, "Light map to write (.nc)");
+  c->add_option("--csv", o.element_csv, "Table of all elements to write (.csv)");
+  c->add_option("--tree-csv", o.tree_csv, "Table of all trees to write (.csv)");
+  c->add_option("--threads", o.threads, "Threads; 0: all cores. The answer is the same for any number");
+  c->footer(
+      "Examples:\n  sunfleck light stand.vdb --scene configs/scenes/mixed_stand.toml -o light.nc --tree-csv "
+      "trees.csv\n"
+      "  sunfleck light stand.vdb --scene scene.toml --method spp_g -o fast.nc");
+}
+
+void add_render(CLI::App& app, RenderOptions& o) {
+  CLI::App* c = app.add_subcommand("render", "Make an image of a lit forest");
+  c->add_option("forest", o.forest, "Forest (.vdb)")->required();
+  c->add_option("--light-map", o.light_map, "Light map of that forest (.nc)")->required();
+  c->add_option("--scene", o.scene, "Scene file (TOML) with [light] and, if wanted, [camera]")->required();
+  c->add_option("--png", o.png, "Picture to write (.png, sRGB)");
+  c->add_option("--exr", o.exr, "Layers to write (.exr: RGB, depth, normal, instance id, irradiance)");
+  c->footer(
+      "Examples:\n  sunfleck render stand.vdb --light-map light.nc --scene configs/scenes/mixed_stand.toml "
+      "--png a.png\n"
+      "  sunfleck render stand.vdb --light-map light.nc --scene scene.toml --exr layers.exr");
+}
+
+void add_files(CLI::App& app, InfoOptions& info, ImportOptions& in, ExportOptions& out) {
+  CLI::App* c = app.add_subcommand("info", "Say what is in a forest (.vdb) or light map (.nc)");
+  c->add_option("file", info.file, "File to describe")->required();
+  c->footer("Examples:\n  sunfleck info stand.vdb\n  sunfleck info light.nc");
+
+  c = app.add_subcommand("import", "Turn a leaf list or a mesh into a forest of one prototype");
+  c->add_option("file", in.file, "Leaf list (radius x y z nx ny nz per line; .gz too), .obj or .ply")
+      ->required();
+  c->add_option("-o,--output", in.output, "Forest to write (.vdb)")->required();
+  c->add_option("--format", in.format, "leaves, obj or ply; default: by extension");
+  c->add_option("--material", in.material, "Material of a leaf list: a species, or any name")
+      ->capture_default_str();
+  c->add_option("--leaf", in.leaf_materials, "FILE_MATERIAL=MATERIAL that is two-sided leaf; repeatable");
+  c->add_option("--wood", in.wood_materials, "FILE_MATERIAL=MATERIAL that is opaque wood; repeatable");
+  c->add_option("--instances", in.instances,
+                "Positions: x y z [scale azimuth_deg] per line; default: one at 0 0 0");
+  c->add_option("--period", in.period, "Repeat the scene: X0 Y0 SIZE_X SIZE_Y in metres")->expected(4);
+  c->add_option("--configs", in.configs, "Folder with species/");
+  c->footer(
+      "Examples:\n  sunfleck import crown_discs.txt.gz --instances centres.txt --period -50 -50 100 100 -o "
+      "het01.vdb\n"
+      "  sunfleck import oak.obj --leaf leaves=\"Quercus robur\" --wood bark=\"Quercus robur\" -o oak.vdb");
+
+  c = app.add_subcommand("export", "Write a prototype or the tree list of a forest in a format others read");
+  c->add_option("forest", out.forest, "Forest (.vdb)")->required();
+  c->add_option("-o,--output", out.output, "File to write")->required();
+  c->add_option("--format", out.format, "obj, leaves (leaf list) or trees (CSV)")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"obj", "leaves", "trees"}));
+  c->add_option("--prototype", out.prototype, "Number of the prototype, from 0")->capture_default_str();
+  c->footer(
+      "Examples:\n  sunfleck export stand.vdb --prototype 2 -o beech.obj\n"
+      "  sunfleck export stand.vdb --format trees -o trees.csv");
+}
+
+void add_service(CLI::App& app, ServeOptions& serve, ClientOptions& client) {
+  CLI::App* c = app.add_subcommand("serve", "Answer requests over gRPC");
+  c->add_option("--config", serve.config, "Server settings; default: configs/server.toml");
+  c->add_option("--socket", serve.socket, "Unix socket to listen on, instead of the configured addresses");
+  c->add_option("--configs", serve.configs, "Folder with species/ and grammars/");
+  c->footer("Examples:\n  sunfleck serve\n  sunfleck serve --socket /run/user/1000/sunfleck.sock");
+
+  c = app.add_subcommand("client", "Ask a server for what the other commands do");
+  c->add_option("action", client.action, "info, create, list, delete, light or render")
+      ->required()
+      ->check(CLI::IsMember({"info", "create", "list", "delete", "light", "render"}));
+  c->add_option("--address", client.address, "unix:PATH or HOST:PORT")->required();
+  c->add_option("--scene-file", client.scene, "Scene file (TOML)");
+  c->add_option("--scene", client.scene_name, "Name the server gave a scene: scenes/...");
+  c->add_option("--method", client.method, "Method, instead of the scene file's");
+  c->add_option("-o,--output", client.netcdf, "Light map to write (.nc)");
+  c->add_option("--csv", client.element_csv, "Table of all elements to write (.csv)");
+  c->add_option("--tree-csv", client.tree_csv, "Table of all trees to write (.csv)");
+  c->add_option("--png", client.png, "Picture to write (.png)");
+  c->add_option("--exr", client.exr, "Layers to write (.exr)");
+  c->add_option("--configs", client.configs, "Folder with species/ and grammars/");
+  c->footer(
+      "Examples:\n  sunfleck client info --address unix:/tmp/sunfleck.sock\n"
+      "  sunfleck client create --address unix:/tmp/sunfleck.sock --scene-file "
+      "configs/scenes/mixed_stand.toml\n"
+      "  sunfleck client light --address unix:/tmp/sunfleck.sock --scene scenes/1f3a... --scene-file "
+      "configs/scenes/mixed_stand.toml --tree-csv trees.csv");
+}
+
+void add_bench(CLI::App& app, BenchOptions& o) {
+  CLI::App* c = app.add_subcommand("bench", "Measure error and time of every method on generated scenes");
+  c->add_option("--scenes", o.scenes, "sphere, clumped, beech or all")->capture_default_str();
+  c->add_option("--bands", o.bands, "PAR, NIR or all")->capture_default_str();
+  c->add_option("--elements", o.elements, "Leaves of a generated crown")->capture_default_str();
+  c->add_option("--reference-rays", o.reference_rays, "Rays per face of the truth")->capture_default_str();
+  c->add_option("--seed", o.seed, "Seed of the scenes")->capture_default_str();
+  c->add_option("--repeats", o.repeats, "Timed runs; the median is printed")->capture_default_str();
+  c->add_option("--threads", o.threads, "Threads; 0: all cores")->capture_default_str();
+  c->add_option("--csv", o.csv, "Table to write (.csv)");
+  c->add_option("--configs", o.configs, "Folder with species/ and grammars/");
+  c->footer(
+      "Examples:\n  sunfleck bench --scenes sphere --bands PAR\n  sunfleck bench --csv "
+      "error_against_time.csv");
+}
+
+bool has_command(const CLI::App& app, const std::string& name) {
+  for (const CLI::App* c : app.get_subcommands({}))
+    if (c->get_name() == name) return true;
+  return false;
+}
+
+int refuse_command(const CLI::App& app, const char* command) {
+  std::string known;
+  for (const CLI::App* c : app.get_subcommands({})) known += (known.empty() ? "" : ", ") + c->get_name();
+  std::fprintf(stderr, "sunfleck: there is no command '%s' (one of %s)\n", command, known.c_str());
+  return 2;
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{"Sunfleck grows forests and tells how much light every leaf in them gets."};
+  app.set_version_flag("--version", std::string("sunfleck ") + kVersion + " (" + kBuildType + ")");
+  app.require_subcommand(1);
+  GrowOptions grow;
+  LightOptions light;
+  RenderOptions render;
+  InfoOptions info;
+  ImportOptions import_options;
+  ExportOptions export_options;
+  ServeOptions serve;
+  ClientOptions client;
+  BenchOptions bench;
+  add_grow(app, grow);
+  add_light(app, light);
+  add_render(app, render);
+  add_service(app, serve, client);
+  add_files(app, info, import_options, export_options);
+  add_bench(app, bench);
+  if (argc > 1 && argv[1][0] != '-' && !has_command(app, argv[1])) return refuse_command(app, argv[1]);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  const std::string command = app.get_subcommands().front()->get_name();
+  return run_and_report([&] {
+    if (command == "serve") return run_serve(serve);
+    const RunControl control = terminal_control();
+    if (command == "grow") return run_grow(grow, control);
+    if (command == "light") return run_light(light, control);
+    if (command == "render") return run_render(render, control);
+    if (command == "info") return run_info(info);
+    if (command == "import") return run_import(import_options);
+    if (command == "export") return run_export(export_options);
+    if (command == "client") return run_client(client, control);
+    return run_bench(bench, control);
+  });
+}
+
+}  // namespace
+}  // namespace sunfleck
+
+int main(int argc, char** argv) { return sunfleck::run(argc, argv); }

@@ -1,0 +1,123 @@
+#include <cmath>
+#include <cstdio>
+
+#include "lighting/map/light_map_file.h"
+#include "lighting/render/camera_config.h"
+#include "server/apps/commands.h"
+#include "server/apps/scene_file.h"
+#include "server/apps/summary.h"
+#include "server/apps/terminal.h"
+#include "server/client/client.h"
+#include "sim/base/error.h"
+#include "sim/base/pending_file.h"
+
+namespace sunfleck {
+namespace {
+
+constexpr double kPatience_s = 5;
+
+SceneFile required_scene_file(const ClientOptions& o) {
+  if (o.scene.empty()) throw_invalid("--scene-file", "is missing", "the scene file to send");
+  return read_scene_file(o.scene);
+}
+
+const std::string& required_scene_name(const ClientOptions& o) {
+  if (o.scene_name.empty())
+    throw_invalid("--scene", "is missing", "a name from client create or client list");
+  return o.scene_name;
+}
+
+LightRequest required_light(const ClientOptions& o, const SceneFile& scene) {
+  if (!scene.light) throw_invalid(o.scene.string(), "has no [light] table", "say which sun, sky and bands");
+  LightRequest request = *scene.light;
+  if (!o.method.empty()) request.method = method_from_string(o.method, "--method");
+  return request;
+}
+
+// The forest a served scene was made of, grown here: tables need the places of its leaves.
+Forest same_forest(const ClientOptions& o, const SceneFile& scene, const RunControl& control) {
+  if (!scene.forest)
+    throw_invalid(o.scene.string(), "has no [forest] table", "the file the scene was made from");
+  Forest forest =
+      grow_forest(*scene.forest, SpeciesLibrary::load(find_configs(o.configs) / "species"), control);
+  if ("scenes/" + content_hash(forest) != o.scene_name)
+    throw_invalid("--scene", o.scene_name + " was not made from " + o.scene.string(),
+                  "the file it was made from grows scenes/" + content_hash(forest));
+  return forest;
+}
+
+void print_scene(const SceneInfo& s) {
+  std::printf("%s  %s: %s trees, %s foliage elements, %.6g m2 of leaf\n", s.name.c_str(),
+              s.forest_name.c_str(), grouped(s.trees).c_str(), grouped(s.elements).c_str(), s.leaf_area_m2);
+}
+
+void print_info(Client& client) {
+  const ServerReport report = client.info();
+  std::printf("server       sunfleck %s (%s)\nmethods     ", report.version.c_str(), report.build.c_str());
+  for (const std::string& m : report.methods) std::printf(" %s", m.c_str());
+  std::printf("\n");
+  for (const auto& [name, value] : report.limits)
+    std::printf("limit        %s = %s\n", name.c_str(), value.c_str());
+  for (const auto& [name, value] : report.load)
+    std::printf("load         %s = %s\n", name.c_str(), value.c_str());
+}
+
+void fetch_light(const ClientOptions& o, Client& client, const RunControl& control) {
+  const SceneFile scene = required_scene_file(o);
+  const LightRequest request = required_light(o, scene);
+  required_scene_name(o);
+  const Forest forest = same_forest(o, scene, control);
+  const LightMap map = client.light_map(o.scene_name, request, control);
+  if (!o.netcdf.empty()) save_netcdf(map, forest, o.netcdf);
+  if (!o.element_csv.empty()) save_element_csv(map, forest, o.element_csv);
+  if (!o.tree_csv.empty()) save_tree_csv(map, forest, o.tree_csv);
+  finish_progress();
+  print_light(map, forest);
+  for (const auto& path : {o.netcdf, o.element_csv, o.tree_csv})
+    if (!path.empty()) std::printf("wrote        %s\n", path.c_str());
+}
+
+void fetch_picture(const ClientOptions& o, Client& client, const RunControl& control) {
+  if (o.png.empty() && o.exr.empty())
+    throw_invalid("client render", "nowhere to write", "--png FILE or --exr FILE");
+  const SceneFile scene = required_scene_file(o);
+  if (!scene.camera) throw_invalid(o.scene.string(), "has no [camera] table", "where to look from");
+  const auto files = o.exr.empty()   ? Client::Files::kPng
+                     : o.png.empty() ? Client::Files::kExr
+                                     : Client::Files::kExrAndPng;
+  const RemoteRender picture =
+      client.render(required_scene_name(o), required_light(o, scene), *scene.camera, files, control);
+  if (!o.png.empty()) write_whole_file(o.png, picture.png);
+  if (!o.exr.empty()) write_whole_file(o.exr, picture.exr);
+  finish_progress();
+  std::printf("image        %d x %d pixels in %zu tiles, rendered in %s\n", picture.width_px,
+              picture.height_px, picture.tiles, seconds_text(picture.render_wall_s).c_str());
+  for (const auto& path : {o.png, o.exr})
+    if (!path.empty()) std::printf("wrote        %s\n", path.c_str());
+}
+
+}  // namespace
+
+void run_client(const ClientOptions& o, const RunControl& control) {
+  ConnectOptions connect;
+  connect.target = o.address;
+  Client client(connect);
+  client.wait_until_ready(kPatience_s);
+  if (o.action == "info") return print_info(client);
+  if (o.action == "create") {
+    const SceneFile scene = required_scene_file(o);
+    if (!scene.forest) throw_invalid(o.scene.string(), "has no [forest] table", "say what to grow");
+    const SceneInfo info = client.create_scene(*scene.forest, control);
+    finish_progress();
+    return print_scene(info);
+  }
+  if (o.action == "list") {
+    for (const SceneInfo& s : client.list_scenes()) print_scene(s);
+    return;
+  }
+  if (o.action == "delete") return client.delete_scene(required_scene_name(o));
+  if (o.action == "light") return fetch_light(o, client, control);
+  fetch_picture(o, client, control);
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,165 @@
+// info, import and export: files in and out, no light computed.
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+
+#include "lighting/map/light_map_file.h"
+#include "server/apps/commands.h"
+#include "server/apps/scene_file.h"
+#include "server/apps/summary.h"
+#include "server/apps/terminal.h"
+#include "sim/base/error.h"
+#include "sim/base/pending_file.h"
+#include "sim/grid/forest_file.h"
+#include "sim/plant/make_prototype.h"
+
+namespace sunfleck {
+namespace {
+
+void print_light_file(const std::filesystem::path& path) {
+  const LightMap map = load_netcdf(path);
+  std::printf("light map    %s (seed %llu, version %s) of forest %s\n", map.provenance.method.c_str(),
+              static_cast<unsigned long long>(map.provenance.seed), map.provenance.version.c_str(),
+              map.provenance.forest_hash.c_str());
+  for (const BandLightMap& band : map.bands)
+    std::printf("%-12s %s elements, %s trees, mean irradiance (both faces) %.5g W m-2\n",
+                (band.band + ":").c_str(), grouped(band.elements.size()).c_str(),
+                grouped(band.trees.size()).c_str(), band.mean_irradiance_w_m2);
+  for (const auto& [name, value] : map.provenance.settings)
+    std::printf("  %s = %s\n", name.c_str(), value.c_str());
+}
+
+void print_forest_file(const std::filesystem::path& path) {
+  print_forest(load_forest(path));
+  for (const GridSummary& g : summarize_forest_file(path))
+    std::printf("grid         %-32s %-10s voxel %.3g m, %s active, integral %.6g\n", g.name.c_str(),
+                g.type.c_str(), g.voxel_size_m, grouped(g.active_voxels).c_str(), g.integral);
+}
+
+std::map<std::string, std::string> read_pairs(const std::vector<std::string>& pairs,
+                                              const std::string& option) {
+  std::map<std::string, std::string> result;
+  for (const std::string& pair : pairs) {
+    const std::size_t equals = pair.find('=');
+    if (equals == std::string::npos)
+      throw_invalid(option, "'" + pair + "' has no '='", option + " FILE_MATERIAL=MATERIAL");
+    result[pair.substr(0, equals)] = pair.substr(equals + 1);
+  }
+  return result;
+}
+
+Prototype read_prototype(const ImportOptions& o, ImportReport& report) {
+  std::string format = o.format.empty() ? o.file.extension().string() : "." + o.format;
+  if (format == ".obj" || format == ".ply")
+    return import_mesh(
+        o.file, {read_pairs(o.leaf_materials, "--leaf"), read_pairs(o.wood_materials, "--wood")}, &report);
+  if (format == ".leaves" || format == ".txt" || format == ".gz" || format == ".def")
+    return import_leaf_list(o.file, o.material, &report);
+  throw_invalid(o.file.string(), "cannot tell the format", "--format leaves, obj or ply");
+}
+
+// x y z [scale azimuth_deg] per line; # comments.
+std::vector<Instance> read_instances(const std::filesystem::path& path) {
+  std::ifstream in(path);
+  if (!in)
+    throw Error(ErrorKind::kNotFound, path.string(), "cannot be read", "a text file with x y z per line");
+  std::vector<Instance> instances;
+  std::string line;
+  for (int number = 1; std::getline(in, line); ++number) {
+    line = line.substr(0, line.find('#'));
+    std::istringstream fields(line);
+    std::vector<double> v;
+    for (double x; fields >> x;) v.push_back(x);
+    if (v.empty() && fields.eof()) continue;
+    if (!fields.eof() || (v.size() != 3 && v.size() != 5))
+      throw_invalid(path.string() + ":" + std::to_string(number),
+                    "is not 'x y z' or 'x y z scale azimuth_deg'", "three or five numbers");
+    Instance instance;
+    instance.position_m = {v[0], v[1], v[2]};
+    if (v.size() == 5) {
+      instance.scale = static_cast<float>(v[3]);
+      instance.yaw_rad = static_cast<float>(-radians_from_degrees(v[4]));
+    }
+    instance.tree.value = static_cast<std::uint32_t>(instances.size());
+    instances.push_back(instance);
+  }
+  if (instances.empty()) throw_invalid(path.string(), "holds no position", "x y z per line");
+  return instances;
+}
+
+// A species' optics where the name is one, else a material whose optics the scene file must state.
+Material find_material(const std::string& name, const std::filesystem::path& configs) {
+  const SpeciesLibrary library = SpeciesLibrary::load(find_configs(configs) / "species");
+  for (const Species& s : library.all())
+    if (s.latin == name || s.code == name) {
+      Material material = s.material;
+      material.name = name;
+      return material;
+    }
+  return {name, {}};
+}
+
+void export_trees(const Forest& forest, const std::filesystem::path& path) {
+  std::ostringstream out;
+  out << "tree_id,prototype,x_m,y_m,z_m,yaw_rad,scale,height_m,leaf_area_m2\n";
+  out.precision(9);
+  for (const Instance& i : forest.instances) {
+    const Prototype& p = forest.prototypes[i.prototype.value];
+    const TreeMeasures m = measure(p);
+    const double scale = i.scale;
+    out << i.tree.value << ',' << p.name << ',' << i.position_m.x << ',' << i.position_m.y << ','
+        << i.position_m.z << ',' << i.yaw_rad << ',' << i.scale << ',' << scale * m.height_m << ','
+        << scale * scale * m.leaf_area_m2 << '\n';
+  }
+  write_whole_file(path, out.str());
+}
+
+}  // namespace
+
+void run_info(const InfoOptions& o) {
+  if (o.file.extension() == ".nc") return print_light_file(o.file);
+  print_forest_file(o.file);
+}
+
+void run_import(const ImportOptions& o) {
+  if (o.output.extension() != ".vdb") throw_invalid("--output", "must end in .vdb", "-o FILE.vdb");
+  Forest forest;
+  forest.name = o.file.stem().string();
+  ImportReport report;
+  forest.prototypes.push_back(read_prototype(o, report));
+  for (const std::string& name : forest.prototypes[0].materials)
+    forest.materials.push_back(find_material(name, o.configs));
+  forest.instances = o.instances.empty() ? std::vector<Instance>(1) : read_instances(o.instances);
+  if (!o.period.empty()) forest.period = Period{{o.period[0], o.period[1]}, {o.period[2], o.period[3]}};
+  validate(forest);
+  save_forest(forest, o.output);
+  print_forest(forest);
+  for (const std::string& warning : report.warnings) std::printf("warning      %s\n", warning.c_str());
+  for (const Material& m : forest.materials)
+    if (m.bands.empty())
+      std::printf(
+          "note         '%s' is no known species: give its optics as [[light.optics]] in the scene file\n",
+          m.name.c_str());
+  std::printf("wrote        %s\n", o.output.c_str());
+}
+
+void run_export(const ExportOptions& o) {
+  const Forest forest = load_forest(o.forest);
+  if (o.format == "trees") {
+    export_trees(forest, o.output);
+  } else {
+    if (o.prototype >= forest.prototypes.size())
+      throw_invalid("--prototype", "there is no prototype " + std::to_string(o.prototype),
+                    "0 to " + std::to_string(forest.prototypes.size() - 1));
+    const Prototype& p = forest.prototypes[o.prototype];
+    if (o.format == "obj") {
+      export_obj(p, o.output);
+    } else if (const std::size_t left_out = export_leaf_list(p, o.output); left_out > 0) {
+      std::printf("note         %s elements are neither discs nor quads and were left out\n",
+                  grouped(left_out).c_str());
+    }
+  }
+  std::printf("wrote        %s\n", o.output.c_str());
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,31 @@
+#include <cstdio>
+
+#include "lighting/map/light_map_file.h"
+#include "server/apps/commands.h"
+#include "server/apps/scene_file.h"
+#include "server/apps/summary.h"
+#include "server/apps/terminal.h"
+#include "sim/base/error.h"
+#include "sim/grid/forest_file.h"
+
+namespace sunfleck {
+
+void run_light(const LightOptions& o, const RunControl& control) {
+  if (o.netcdf.empty() && o.element_csv.empty() && o.tree_csv.empty())
+    throw_invalid("light", "nowhere to write", "-o FILE.nc, --csv FILE or --tree-csv FILE");
+  const SceneFile scene = read_scene_file(o.scene);
+  if (!scene.light) throw_invalid(o.scene.string(), "has no [light] table", "say which sun, sky and bands");
+  LightRequest request = *scene.light;
+  if (!o.method.empty()) request.method = method_from_string(o.method, "--method");
+  const Forest forest = load_forest(o.forest);
+  const LightMap map = compute_light_map(forest, request, {.threads = o.threads}, control);
+  if (!o.netcdf.empty()) save_netcdf(map, forest, o.netcdf);
+  if (!o.element_csv.empty()) save_element_csv(map, forest, o.element_csv);
+  if (!o.tree_csv.empty()) save_tree_csv(map, forest, o.tree_csv);
+  finish_progress();
+  print_light(map, forest);
+  for (const auto& path : {o.netcdf, o.element_csv, o.tree_csv})
+    if (!path.empty()) std::printf("wrote        %s\n", path.c_str());
+}
+
+}  // namespace sunfleck

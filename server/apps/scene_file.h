@@ -1,0 +1,26 @@
+// A scene file: [forest], [light] and [camera] in one TOML.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "lighting/plan/light_request.h"
+#include "lighting/render/render.h"
+#include "sim/forest/forest_spec.h"
+
+namespace sunfleck {
+
+struct SceneFile {
+  std::optional<ForestSpec> forest;
+  std::optional<LightRequest> light;
+  std::optional<Camera> camera;
+};
+
+// Reads all tables that are there and refuses every key that nobody knows.
+SceneFile read_scene_file(const std::filesystem::path& path);
+
+// The folder with species and grammars: `given` if not empty, else $SUNFLECK_CONFIGS, else "configs" under
+// the current folder or under a folder above the program. Throws Error(kNotFound).
+std::filesystem::path find_configs(const std::filesystem::path& given);
+
+}  // namespace sunfleck
