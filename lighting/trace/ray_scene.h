@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "sim/base/run_control.h"
 #include "sim/base/vec.h"
 #include "sim/forest/forest.h"
 
@@ -35,14 +36,16 @@ struct RayStart {
 // `forest` must outlive it. Shoots are small clouds of needles: a ray flies through their cylinder and meets
 // a needle with a chance given by path length times half the needle area density, drawn from the ray itself
 // (same ray, same answer). In a periodic forest rays go on on the other side of the cell, at most max_wraps
-// times, then count as sky (upwards) or ground (downwards). Directions are unit vectors.
+// times, then count as sky (upwards) or ground (downwards). Directions are unit vectors. Distances below
+// about 4e-7 of the scene's extent are noise: leaves closer than that do not know which is on top.
 class RayScene {
  public:
   struct Options {
     bool ground = true;  // false: nothing below, rays down go to "sky"
     int max_wraps = 1000;
   };
-  RayScene(const Forest& forest, const Options& options);
+  // Throws Error(kCancelled) when stopped while building.
+  RayScene(const Forest& forest, const Options& options, const RunControl& control = {});
   ~RayScene();
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;

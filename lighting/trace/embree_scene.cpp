@@ -1,0 +1,178 @@
+#include "lighting/trace/embree_scene.h"
+
+#include <array>
+
+#include "sim/base/contract.h"
+#include "sim/base/error.h"
+
+namespace sunfleck::trace {
+namespace {
+
+struct Corner {
+  float x, y, z;
+};
+struct Corner4 {
+  float x, y, z, w;
+};
+Corner corner(const Vec3& p) {
+  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+}
+
+bool count_memory(void* total, ssize_t bytes, bool) {
+  *static_cast<std::atomic<std::int64_t>*>(total) += bytes;
+  return true;
+}
+
+// A ray does not hit the flat leaf or wood triangle it starts on.
+template <HitKind kind>
+void skip_start(const RTCFilterFunctionNArguments* args) {
+  const auto& context = *reinterpret_cast<const RayContext*>(args->context);
+  const auto& prototype = *static_cast<const PrototypeScene*>(args->geometryUserPtr);
+  const unsigned primitive = RTCHitN_primID(args->hit, args->N, 0);
+  const unsigned slot = RTCHitN_geomID(args->hit, args->N, 0);
+  const unsigned copy = RTCHitN_instID(args->hit, args->N, 0, 0);
+  const std::uint32_t local = slot == kQuads   ? prototype.quad_elements[primitive]
+                              : slot == kDiscs ? prototype.disc_elements[primitive]
+                                               : primitive;
+  if (is_start(context, copy, kind, local)) args->valid[0] = 0;
+}
+
+template <HitKind kind>
+void attach(RTCGeometry geometry, Slot slot, PrototypeScene& out) {
+  rtcSetGeometryUserData(geometry, &out);
+  rtcSetGeometryIntersectFilterFunction(geometry, skip_start<kind>);
+  rtcSetGeometryOccludedFilterFunction(geometry, skip_start<kind>);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(out.scene.get(), geometry, slot);
+  rtcReleaseGeometry(geometry);
+}
+
+template <class T>
+T* new_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::size_t count) {
+  return static_cast<T*>(rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(T), count));
+}
+
+// Counter-clockwise seen from the front; a triangle repeats its last corner.
+std::array<Vec3, 4> corners(const FoliageElement& e) {
+  const Vec3 c(e.centre_m), u(e.half_u_m), v(e.half_v_m);
+  if (e.shape == ElementShape::kParallelogram) return {c - u - v, c + u - v, c + u + v, c - u + v};
+  const Vec3 a = c - (u + v) / 3.0;
+  return {a, a + u, a + v, a + v};
+}
+
+void add_quads(const Device& device, const Prototype& prototype, PrototypeScene& out) {
+  if (out.quad_elements.empty()) return;
+  const std::size_t count = out.quad_elements.size();
+  const RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_QUAD);
+  auto* points = new_buffer<Corner>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, 4 * count);
+  auto* indexes =
+      new_buffer<std::array<unsigned, 4>>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT4, count);
+  device.check("leaf buffers");
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto quad = corners(prototype.foliage[out.quad_elements[i]]);
+    for (std::size_t k = 0; k < 4; ++k) {
+      points[4 * i + k] = corner(quad[k]);
+      indexes[i][k] = static_cast<unsigned>(4 * i + k);
+    }
+  }
+  attach<HitKind::kFoliage>(geometry, kQuads, out);
+}
+
+void add_discs(const Device& device, const Prototype& prototype, PrototypeScene& out) {
+  if (out.disc_elements.empty()) return;
+  const std::size_t count = out.disc_elements.size();
+  const RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_ORIENTED_DISC_POINT);
+  auto* points = new_buffer<Corner4>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, count);
+  auto* normals = new_buffer<Corner>(geometry, RTC_BUFFER_TYPE_NORMAL, RTC_FORMAT_FLOAT3, count);
+  device.check("leaf buffers");
+  for (std::size_t i = 0; i < count; ++i) {
+    const FoliageElement& e = prototype.foliage[out.disc_elements[i]];
+    const float radius = static_cast<float>(glm::length(Vec3(e.half_u_m)));
+    points[i] = {e.centre_m.x, e.centre_m.y, e.centre_m.z, radius};
+    normals[i] = corner(element_normal(e));
+  }
+  attach<HitKind::kFoliage>(geometry, kDiscs, out);
+}
+
+void add_wood_triangles(const Device& device, const Prototype& prototype, PrototypeScene& out) {
+  if (prototype.wood_mesh.empty()) return;
+  const std::size_t count = prototype.wood_mesh.size();
+  const RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* points = new_buffer<Corner>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, 3 * count);
+  auto* indexes =
+      new_buffer<std::array<unsigned, 3>>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, count);
+  device.check("wood buffers");
+  for (std::size_t i = 0; i < count; ++i) {
+    const WoodTriangle& t = prototype.wood_mesh[i];
+    std::size_t k = 3 * i;
+    for (const Vec3f& p : {t.a_m, t.b_m, t.c_m}) points[k++] = {p.x, p.y, p.z};
+    const auto first = static_cast<unsigned>(3 * i);
+    indexes[i] = {first, first + 1, first + 2};
+  }
+  attach<HitKind::kWoodMesh>(geometry, kWoodTriangles, out);
+}
+
+void sort_elements_by_shape(const Prototype& prototype, PrototypeScene& out) {
+  for (std::size_t i = 0; i < prototype.foliage.size(); ++i) {
+    const ElementShape shape = prototype.foliage[i].shape;
+    auto& list = shape == ElementShape::kShoot  ? out.shoot_elements
+                 : shape == ElementShape::kDisc ? out.disc_elements
+                                                : out.quad_elements;
+    list.push_back(static_cast<std::uint32_t>(i));
+  }
+}
+
+}  // namespace
+
+bool is_start(const RayContext& context, unsigned copy, HitKind kind, std::uint32_t local) {
+  if (kind != context.from.kind || local != context.from.local) return false;
+  const SceneCopy& c = context.copies[copy];
+  return c.instance == context.from.instance && c.shift.x + context.cell.x == 0 &&
+         c.shift.y + context.cell.y == 0;
+}
+
+Device::Device() : device_(rtcNewDevice(nullptr)) {
+  if (device_ == nullptr)
+    throw Error(ErrorKind::kInputOutput, "Embree", "cannot start", "a CPU with SSE2 and libembree3");
+  rtcSetDeviceMemoryMonitorFunction(device_, count_memory, &bytes_);
+}
+
+Device::~Device() { rtcReleaseDevice(device_); }
+
+void Device::check(const char* step) const {
+  const RTCError error = rtcGetDeviceError(device_);
+  if (error == RTC_ERROR_NONE) return;
+  if (error == RTC_ERROR_OUT_OF_MEMORY)
+    throw Error(ErrorKind::kLimitExceeded, "Embree", std::string("out of memory at: ") + step,
+                "a smaller forest or more memory");
+  throw Error(ErrorKind::kInputOutput, "Embree",
+              "error " + std::to_string(static_cast<int>(error)) + " at: " + step, "report this scene");
+}
+
+void commit(const Device& device, RTCScene scene, const RunControl& control) {
+  control.check();
+  const auto go_on = [](void* with, double) {
+    return !static_cast<const RunControl*>(with)->stop.stop_requested();
+  };
+  rtcSetSceneProgressMonitorFunction(scene, go_on, const_cast<RunControl*>(&control));
+  rtcCommitScene(scene);
+  control.check();
+  rtcSetSceneProgressMonitorFunction(scene, nullptr, nullptr);
+  device.check("building the scene");
+}
+
+void build_prototype_scene(const Device& device, const Prototype& prototype, PrototypeScene& out,
+                           const RunControl& control) {
+  SUNFLECK_EXPECTS(out.scene == nullptr);
+  if (prototype.foliage.empty() && prototype.wood.empty() && prototype.wood_mesh.empty()) return;
+  sort_elements_by_shape(prototype, out);
+  out.scene.reset(rtcNewScene(device.get()));
+  add_quads(device, prototype, out);
+  add_discs(device, prototype, out);
+  add_shoots(device, prototype, out);
+  add_wood_cones(device, prototype, out);
+  add_wood_triangles(device, prototype, out);
+  commit(device, out.scene.get(), control);
+}
+
+}  // namespace sunfleck::trace

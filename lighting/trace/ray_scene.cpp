@@ -1,0 +1,213 @@
+#include "lighting/trace/ray_scene.h"
+
+#include <bit>
+#include <cmath>
+
+#include "lighting/trace/embree_scene.h"
+#include "lighting/trace/ray_walk.h"
+#include "lighting/trace/scene_copies.h"
+#include "sim/base/contract.h"
+#include "sim/base/error.h"
+#include "sim/base/random.h"
+
+namespace sunfleck {
+
+using namespace trace;
+
+struct RayScene::State {
+  Device device;
+  Vec3 centre_m{0};
+  Surroundings around;
+  std::vector<PrototypeScene> prototypes;
+  std::vector<SceneCopy> copies;
+  SceneHandle top;
+  std::size_t wrapped_copies = 0;
+  bool has_shoots = false;
+
+  State(const Forest& forest, const Options& options, const RunControl& control);
+  // In the scene's coordinates. A ray from the ground starts a hair below it, so that it meets what lies
+  // there.
+  Vec3 start_of(const Vec3& origin_m, const RayStart& from) const {
+    const double sink_m = from.kind == HitKind::kGround ? 2.0 * around.rounding_m : 0.0;
+    return origin_m - centre_m - Vec3(0, 0, sink_m);
+  }
+};
+
+namespace {
+
+Vec3 centre_of(const Forest& forest) {
+  const Box bounds = forest_bounds(forest);
+  Vec3 centre = bounds.empty() ? Vec3(0, 0, forest.terrain.elevation_m) : bounds.centre();
+  if (!forest.period) return centre;
+  const Vec2 middle = forest.period->origin_m + 0.5 * forest.period->size_m;
+  // Along the ground, so that heights above it stay.
+  const double lift =
+      forest.terrain.height_at(middle.x, middle.y) - forest.terrain.height_at(centre.x, centre.y);
+  return {middle.x, middle.y, centre.z + lift};
+}
+
+std::uint64_t key_of(const Vec3& origin, const Vec3& direction) {
+  std::uint64_t key = 0;
+  for (const double x : {origin.x, origin.y, origin.z, direction.x, direction.y, direction.z})
+    key = mix_seed(key, std::bit_cast<std::uint64_t>(x));
+  return key;
+}
+
+RayContext context_for(const std::vector<SceneCopy>& copies, const RayStart& from) {
+  RayContext context;
+  rtcInitIntersectContext(&context.embree);
+  context.copies = copies.data();
+  context.from = from;
+  return context;
+}
+
+RTCRay embree_ray(const Piece& piece, const Vec3& direction) {
+  RTCRay ray;
+  ray.org_x = static_cast<float>(piece.origin.x);
+  ray.org_y = static_cast<float>(piece.origin.y);
+  ray.org_z = static_cast<float>(piece.origin.z);
+  ray.dir_x = static_cast<float>(direction.x);
+  ray.dir_y = static_cast<float>(direction.y);
+  ray.dir_z = static_cast<float>(direction.z);
+  ray.tnear = static_cast<float>(piece.near_m);
+  ray.tfar = static_cast<float>(piece.far_m);
+  ray.time = 0.0f;
+  ray.mask = 0xFFFFFFFFu;
+  ray.id = 0;
+  ray.flags = 0;
+  return ray;
+}
+
+// A needle met by a ray is turned any way, but seen in proportion to the cosine.
+void set_needle(std::uint64_t lot, const Vec3& direction, RayHit& hit) {
+  RandomStream stream(lot, 0, RandomPurpose::kFreeFlight);
+  hit.front = stream.below(2) == 0;
+  const double cos2 = stream.uniform(), turn = 2.0 * kPi * stream.uniform();
+  const Basis around = basis_around(-direction);
+  const double across = std::sqrt(1.0 - cos2);
+  hit.normal = across * (std::cos(turn) * around.tangent + std::sin(turn) * around.bitangent) -
+               std::sqrt(cos2) * direction;
+}
+
+void set_surface(const RTCHit& from, const SceneCopy& copy, const Vec3& direction, RayHit& hit) {
+  const Vec3 n(from.Ng_x, from.Ng_y, from.Ng_z);
+  const Vec3 turned(copy.cos_yaw * n.x - copy.sin_yaw * n.y, copy.sin_yaw * n.x + copy.cos_yaw * n.y, n.z);
+  const double length = glm::length(turned);
+  hit.front = glm::dot(turned, direction) < 0.0;
+  hit.normal = length > 0.0 ? turned / (hit.front ? length : -length) : -direction;
+}
+
+RayHit described(const RTCRayHit& from, const SceneCopy& copy, const Piece& piece, const Vec3& direction,
+                 std::uint64_t ray_key) {
+  RayHit hit;
+  hit.instance = copy.instance;
+  hit.local = from.hit.primID;
+  hit.distance_m = piece.before_m + from.ray.tfar;
+  hit.position_m = piece.origin + static_cast<double>(from.ray.tfar) * direction;
+  switch (from.hit.geomID) {
+    case kQuads:
+    case kDiscs: {
+      const auto& elements =
+          from.hit.geomID == kQuads ? copy.prototype->quad_elements : copy.prototype->disc_elements;
+      hit.kind = HitKind::kFoliage;
+      hit.local = elements[from.hit.primID];
+      break;
+    }
+    case kShoots:
+      hit.kind = HitKind::kFoliage;
+      hit.local = copy.prototype->shoot_elements[from.hit.primID];
+      set_needle(mix_seed(ray_key, hit.local), direction, hit);
+      return hit;
+    default:
+      hit.kind = from.hit.geomID == kWoodCones ? HitKind::kWood : HitKind::kWoodMesh;
+  }
+  set_surface(from.hit, copy, direction, hit);
+  return hit;
+}
+
+RayHit ended(const RayEnd& end, const Surroundings& around, const Vec3& ground_normal, const Vec3& origin,
+             const Vec3& direction) {
+  RayHit hit;
+  hit.distance_m = end.distance_m;
+  hit.normal = -direction;
+  hit.position_m = origin;
+  if (end.kind == RayEnd::kSky) {
+    hit.distance_m = std::numeric_limits<double>::infinity();
+    return hit;
+  }
+  hit.kind = HitKind::kGround;
+  hit.front = end.kind == RayEnd::kGround;
+  hit.normal = hit.front ? ground_normal : -ground_normal;
+  hit.position_m = origin + end.distance_m * direction;
+  if (around.periodic)
+    hit.position_m = into_base_cell(around, hit.position_m, cell_of(around, hit.position_m));
+  hit.position_m.z -= around.height_above_ground(hit.position_m);
+  return hit;
+}
+
+}  // namespace
+
+RayScene::State::State(const Forest& forest, const Options& options, const RunControl& control) {
+  centre_m = centre_of(forest);
+  around = surroundings_of(forest, options, centre_m);
+  prototypes.resize(forest.prototypes.size());
+  for (std::size_t i = 0; i < prototypes.size(); ++i) {
+    build_prototype_scene(device, forest.prototypes[i], prototypes[i], control);
+    has_shoots = has_shoots || !prototypes[i].shoots.empty();
+  }
+  copies = copies_of(forest, prototypes, around, centre_m);
+  for (const SceneCopy& copy : copies) wrapped_copies += copy.shift == Cell{} ? 0 : 1;
+  top = build_top_scene(device, forest, copies, around, centre_m, control);
+}
+
+RayScene::RayScene(const Forest& forest, const Options& options, const RunControl& control)
+    : state_(std::make_unique<State>(forest, options, control)) {}
+RayScene::~RayScene() = default;
+
+RayHit RayScene::closest_hit(const Vec3& origin_m, const Vec3& direction, double min_distance_m,
+                             const RayStart& from) const {
+  SUNFLECK_EXPECTS(std::abs(glm::dot(direction, direction) - 1.0) < 1e-6);
+  const State& s = *state_;
+  const Vec3 origin = s.start_of(origin_m, from);
+  RayContext context = context_for(s.copies, from);
+  RTCRayHit found;
+  RayHit hit;
+  const RayEnd end = walk(s.around, origin, direction, min_distance_m, [&](const Piece& piece) {
+    context.cell = piece.cell;
+    if (s.has_shoots) context.ray_key = key_of(piece.origin, direction);
+    found.ray = embree_ray(piece, direction);
+    found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(s.top.get(), &context.embree, &found);
+    if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+    hit = described(found, s.copies[found.hit.instID[0]], piece, direction, context.ray_key);
+    return true;
+  });
+  if (end.kind != RayEnd::kStopped) {
+    const Vec3 up = glm::normalize(Vec3(-s.around.ground_rise.x, -s.around.ground_rise.y, 1.0));
+    hit = ended(end, s.around, up, origin, direction);
+  }
+  hit.position_m += s.centre_m;
+  return hit;
+}
+
+bool RayScene::occluded(const Vec3& origin_m, const Vec3& direction, double min_distance_m,
+                        const RayStart& from) const {
+  SUNFLECK_EXPECTS(std::abs(glm::dot(direction, direction) - 1.0) < 1e-6);
+  const State& s = *state_;
+  const Vec3 origin = s.start_of(origin_m, from);
+  RayContext context = context_for(s.copies, from);
+  const RayEnd end = walk(s.around, origin, direction, min_distance_m, [&](const Piece& piece) {
+    context.cell = piece.cell;
+    if (s.has_shoots) context.ray_key = key_of(piece.origin, direction);
+    RTCRay ray = embree_ray(piece, direction);
+    rtcOccluded1(s.top.get(), &context.embree, &ray);
+    return ray.tfar < 0.0f;
+  });
+  return end.kind != RayEnd::kSky;
+}
+
+std::size_t RayScene::copies() const { return state_->wrapped_copies; }
+std::size_t RayScene::memory_bytes() const { return state_->device.bytes(); }
+
+}  // namespace sunfleck

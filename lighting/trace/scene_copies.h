@@ -1,0 +1,22 @@
+// Where the prototypes stand in a ray scene: every instance once, or in a periodic forest every copy of it
+// whose box reaches into the base cell.
+#pragma once
+
+#include <vector>
+
+#include "lighting/trace/embree_scene.h"
+#include "lighting/trace/ray_walk.h"
+
+namespace sunfleck::trace {
+
+// Ground, period and the heights between which there is something to hit, around `centre_m`.
+Surroundings surroundings_of(const Forest& forest, const RayScene::Options& options, const Vec3& centre_m);
+
+std::vector<SceneCopy> copies_of(const Forest& forest, const std::vector<PrototypeScene>& prototypes,
+                                 const Surroundings& around, const Vec3& centre_m);
+
+// Commits a scene with one Embree instance per copy, in their order.
+SceneHandle build_top_scene(const Device& device, const Forest& forest, const std::vector<SceneCopy>& copies,
+                            const Surroundings& around, const Vec3& centre_m, const RunControl& control);
+
+}  // namespace sunfleck::trace

@@ -1,0 +1,140 @@
+#include "lighting/trace/surface_sampler.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sunfleck::trace {
+namespace {
+
+Vec3 unit_or_up(const Vec3& v) {
+  const double length = glm::length(v);
+  return length > 0.0 ? v / length : Vec3(0, 0, 1);
+}
+
+Vec3 around(const Vec3& axis, double along, double across, double turn) {
+  const Basis basis = basis_around(axis);
+  return across * (std::cos(turn) * basis.tangent + std::sin(turn) * basis.bitangent) + along * axis;
+}
+
+// Even over the side of a frustum: the area below height h grows with radius^2.
+SurfacePoint on_side(const ConeFrustum& cone, double part, double turn) {
+  const double r0 = cone.radius_at_base, r1 = r0 + cone.taper * cone.length;
+  const double radius = std::sqrt(std::max(0.0, r0 * r0 + part * (r1 * r1 - r0 * r0)));
+  const double height =
+      std::abs(r1 - r0) > 1e-9 * (r0 + r1) ? (radius - r0) / cone.taper : part * cone.length;
+  const Basis basis = basis_around(cone.axis);
+  const Vec3 spoke = std::cos(turn) * basis.tangent + std::sin(turn) * basis.bitangent;
+  return {cone.base + height * cone.axis + radius * spoke, glm::normalize(spoke - cone.taper * cone.axis)};
+}
+
+}  // namespace
+
+Vec3 cosine_direction(const Vec3& normal, RandomStream& random) {
+  const double sin2 = random.uniform(), turn = 2.0 * kPi * random.uniform();
+  // Never along the surface itself.
+  return around(normal, std::sqrt(std::max(1e-16, 1.0 - sin2)), std::sqrt(sin2), turn);
+}
+
+Vec3 cone_direction(const Vec3& axis, double half_angle_rad, RandomStream& random) {
+  if (half_angle_rad == 0.0) return axis;
+  const double drop = random.uniform() * 2.0 * std::pow(std::sin(0.5 * half_angle_rad), 2);  // 1 - cos
+  return glm::normalize(
+      around(axis, 1.0 - drop, std::sqrt(drop * (2.0 - drop)), 2.0 * kPi * random.uniform()));
+}
+
+Vec3 any_direction(RandomStream& random) {
+  const double z = 2.0 * random.uniform() - 1.0, turn = 2.0 * kPi * random.uniform();
+  const double across = std::sqrt(std::max(0.0, 1.0 - z * z));
+  return {across * std::cos(turn), across * std::sin(turn), z};
+}
+
+SurfaceSampler::SurfaceSampler(const Receivers& receivers, std::size_t surface)
+    : object_(receivers.object(surface)) {
+  if (object_.kind == HitKind::kGround)
+    take_ground(receivers);
+  else if (object_.kind == HitKind::kFoliage)
+    take_element(world_element(receivers.forest(), object_.instance, object_.local));
+  else
+    take_wood(receivers);
+}
+
+void SurfaceSampler::take_element(const WorldElement& e) {
+  origin_ = e.centre_m;
+  u_ = e.half_u_m;
+  v_ = e.half_v_m;
+  normal_ = unit_or_up(glm::cross(u_, v_));
+  switch (e.shape) {
+    case ElementShape::kParallelogram:
+      shape_ = Shape::kParallelogram;
+      break;
+    case ElementShape::kDisc:
+      shape_ = Shape::kDisc;
+      break;
+    case ElementShape::kTriangle:
+      shape_ = Shape::kTriangle;
+      origin_ -= (u_ + v_) / 3.0;
+      break;
+    case ElementShape::kShoot: {
+      shape_ = Shape::kShoot;
+      const double radius = glm::length(v_);
+      const Basis basis = basis_around(unit_or_up(u_));
+      v_ = radius * basis.tangent;
+      w_ = radius * basis.bitangent;
+    }
+  }
+}
+
+void SurfaceSampler::take_wood(const Receivers& receivers) {
+  const Instance& instance = receivers.forest().instances[object_.instance];
+  const Prototype& prototype = receivers.forest().prototypes[instance.prototype.value];
+  const double scale = instance.scale;
+  if (object_.kind == HitKind::kWood) {
+    const WoodSegment& s = prototype.wood[object_.local];
+    shape_ = Shape::kCone;
+    cone_ = cone_between(world_from_tree(instance, s.from_m), world_from_tree(instance, s.to_m),
+                         scale * s.radius_from_m, scale * s.radius_to_m);
+    return;
+  }
+  const WoodTriangle& t = prototype.wood_mesh[object_.local];
+  shape_ = Shape::kTriangle;
+  origin_ = world_from_tree(instance, t.a_m);
+  u_ = world_from_tree(instance, t.b_m) - origin_;
+  v_ = world_from_tree(instance, t.c_m) - origin_;
+  normal_ = unit_or_up(glm::cross(u_, v_));
+}
+
+void SurfaceSampler::take_ground(const Receivers& receivers) {
+  const GroundCells& ground = receivers.ground();
+  const Terrain& terrain = receivers.forest().terrain;
+  const Vec2 lo = ground.lo_m + ground.cell_m * Vec2(object_.local % ground.nx, object_.local / ground.nx);
+  const auto at = [&](double x, double y) { return Vec3(x, y, terrain.height_at(x, y)); };
+  origin_ = at(lo.x + 0.5 * ground.cell_m.x, lo.y + 0.5 * ground.cell_m.y);
+  u_ = 0.5 * (at(lo.x + ground.cell_m.x, lo.y) - at(lo.x, lo.y));
+  v_ = 0.5 * (at(lo.x, lo.y + ground.cell_m.y) - at(lo.x, lo.y));
+  normal_ = ground.normal;
+}
+
+SurfacePoint SurfaceSampler::sample(RandomStream& random) const {
+  const double a = random.uniform(), b = random.uniform();
+  switch (shape_) {
+    case Shape::kParallelogram:
+      return {origin_ + (2.0 * a - 1.0) * u_ + (2.0 * b - 1.0) * v_, normal_};
+    case Shape::kDisc: {
+      const double r = std::sqrt(a), turn = 2.0 * kPi * b;
+      return {origin_ + r * std::cos(turn) * u_ + r * std::sin(turn) * v_, normal_};
+    }
+    case Shape::kTriangle: {
+      const double s = std::sqrt(a);
+      return {origin_ + s * (1.0 - b) * u_ + s * b * v_, normal_};
+    }
+    case Shape::kCone:
+      return on_side(cone_, a, 2.0 * kPi * b);
+    case Shape::kShoot:
+      break;
+  }
+  const double r = std::sqrt(a), turn = 2.0 * kPi * b;
+  const Vec3 along = (2.0 * random.uniform() - 1.0) * u_;
+  return {origin_ + along + r * std::cos(turn) * v_ + r * std::sin(turn) * w_, any_direction(random)};
+}
+
+}  // namespace sunfleck::trace
