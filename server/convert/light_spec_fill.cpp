@@ -1,0 +1,85 @@
+// Light requests to the wire, and their identity.
+#include "server/convert/light_spec_message.h"
+#include "sim/base/sha256.h"
+#include "sunfleck/v1/light.pb.h"
+
+namespace sunfleck {
+namespace {
+
+v1::Method message_method(Method method) {
+  switch (method) {
+    case Method::kReference:
+      return v1::METHOD_REFERENCE;
+    case Method::kSingleScattering:
+      return v1::METHOD_SINGLE_SCATTERING;
+    case Method::kSpp:
+      return v1::METHOD_SPP;
+    case Method::kSppG:
+      return v1::METHOD_SPP_G;
+    case Method::kEnvelope:
+      return v1::METHOD_ENVELOPE;
+    case Method::kEnvelopeMarched:
+      return v1::METHOD_ENVELOPE_MARCHED;
+  }
+  return v1::METHOD_UNSPECIFIED;
+}
+
+void fill_bands(const LightRequest& request, v1::LightSpec& message) {
+  for (std::size_t b = 0; b < request.optics.bands.size(); ++b) {
+    v1::Band& band = *message.add_bands();
+    band.set_name(request.optics.bands[b]);
+    if (b < request.optics.soil_albedo.size()) band.set_soil_albedo(request.optics.soil_albedo[b]);
+    if (b >= request.light.bands.size()) continue;
+    band.set_beam_normal_w_m2(request.light.bands[b].beam_normal_w_m2);
+    band.set_diffuse_horizontal_w_m2(request.light.bands[b].diffuse_horizontal_w_m2);
+  }
+  for (const OpticsOverride& from : request.optics.overrides) {
+    v1::OpticsOverride& to = *message.add_overrides();
+    to.set_material(from.material);
+    to.set_band(from.band);
+    to.set_leaf_reflectance_front(from.optics.leaf.reflectance_front);
+    to.set_leaf_reflectance_back(from.optics.leaf.reflectance_back);
+    to.set_leaf_transmittance_front(from.optics.leaf.transmittance_front);
+    to.set_leaf_transmittance_back(from.optics.leaf.transmittance_back);
+    to.set_bark_reflectance(from.optics.bark_reflectance);
+  }
+}
+
+void fill_reference(const ReferenceOptions& options, v1::ReferenceOptions& message) {
+  message.set_seed(options.seed);
+  message.set_rays_per_face(options.rays_per_face);
+  message.set_sun_rays_per_element(options.sun_rays_per_element);
+  message.set_target_relative_error(options.target_relative_error);
+  message.set_max_rays_per_face(options.max_rays_per_face);
+  message.set_convergence(options.convergence);
+  message.set_max_iterations(options.max_iterations);
+  message.set_ground_cell_m(options.ground_cell_m);
+  message.set_ground(options.ground);
+}
+
+}  // namespace
+
+void fill_message(const LightRequest& request, v1::LightSpec& message) {
+  message.set_method(message_method(request.method));
+  fill_bands(request, message);
+  v1::Vector3& to_sun = *message.mutable_direction_to_sun();
+  to_sun.set_x(request.light.to_sun.x);
+  to_sun.set_y(request.light.to_sun.y);
+  to_sun.set_z(request.light.to_sun.z);
+  message.set_sun_half_angle_rad(request.light.sun_half_angle_rad);
+  message.set_sky(request.light.sky == SkyModel::kUniform ? v1::SKY_MODEL_UNIFORM
+                                                          : v1::SKY_MODEL_STANDARD_OVERCAST);
+  fill_reference(request.reference, *message.mutable_reference());
+  message.mutable_spp()->set_sample_directions(request.spp.sample_directions);
+  message.mutable_spp()->set_map_resolution(request.spp.map_resolution);
+  message.mutable_spp()->set_grid_resolution(request.spp.grid_resolution);
+  message.mutable_envelope()->set_cell_m(request.envelope.cell_m);
+}
+
+std::string request_key(const LightRequest& request) {
+  v1::LightSpec message;  // no maps in it, so that equal requests have equal bytes
+  fill_message(request, message);
+  return sha256_hex(message.SerializeAsString());
+}
+
+}  // namespace sunfleck

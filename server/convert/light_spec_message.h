@@ -1,0 +1,28 @@
+// Light requests between the wire and lighting.
+#pragma once
+
+#include <string>
+
+#include "lighting/plan/light_request.h"
+#include "server/convert/limits.h"
+#include "server/convert/violations.h"
+
+namespace sunfleck {
+
+namespace v1 {
+class LightSpec;
+}
+
+// Checks every field; what is wrong is added to `violations` with paths that start with `field`.
+LightRequest light_request_from_message(const v1::LightSpec& message, const std::string& field,
+                                        const Limits& limits, Violations& violations);
+void fill_message(const LightRequest& request, v1::LightSpec& message);
+
+// The same for the same answer: a hash of everything in the request.
+std::string request_key(const LightRequest& request);
+
+// Bytes a call needs at most beside the scene, from the sizes alone: stored ray hits of the reference and the
+// maps themselves.
+double predicted_bytes(const LightRequest& request, std::size_t elements);
+
+}  // namespace sunfleck

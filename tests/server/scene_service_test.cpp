@@ -1,0 +1,127 @@
+// Scenes are named by content: created twice they are one, they are listed by name in pages, they go when
+// deleted, and the store refuses what does not fit with a remedy.
+#include <grpcpp/grpcpp.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "sim/base/error.h"
+#include "sunfleck/v1/scene.grpc.pb.h"
+#include "tests/server/served.h"
+
+namespace sunfleck::test {
+namespace {
+
+class SceneService : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() { server_ = std::make_unique<ServedProcess>(); }
+  static void TearDownTestSuite() { server_.reset(); }
+  static std::unique_ptr<ServedProcess> server_;
+};
+std::unique_ptr<ServedProcess> SceneService::server_;
+
+TEST_F(SceneService, NameIsTheHashOfTheSameForestGrownHere) {
+  const ForestSpec spec = row_of_trees(3, 200);
+  const Forest local = grow_forest(spec, species(), {});
+  Client client = server_->client();
+  const SceneInfo scene = client.create_scene(spec);
+  EXPECT_EQ(scene.name, "scenes/" + content_hash(local));
+  EXPECT_EQ(scene.trees, 3u);
+  EXPECT_EQ(scene.elements, ForestIndex(local).element_count());
+  EXPECT_DOUBLE_EQ(scene.leaf_area_m2, forest_leaf_area_m2(local));
+  EXPECT_EQ(scene.forest_name, "row");
+  EXPECT_GT(scene.bounds_hi_m.z, scene.bounds_lo_m.z);
+}
+
+TEST_F(SceneService, SlopeAndPeriodArriveExactly) {
+  ForestSpec spec = row_of_trees(2, 100);
+  spec.terrain = {120.5, 0.1234567890123, 2.345678901234};
+  spec.period = Period{{-1, -2}, {30, 31.7}};
+  EXPECT_EQ(server_->client().create_scene(spec).name,
+            "scenes/" + content_hash(grow_forest(spec, species(), {})));
+}
+
+TEST_F(SceneService, PlantingRulesGrowTheSameForest) {
+  ForestSpec spec = row_of_trees(0, 50);
+  spec.plot_width_m = 40;
+  spec.plot_depth_m = 25;
+  spec.planting = {{"fasy", 12, PlantingPattern::kPoissonDisc, 3, 20, 3},
+                   {"Picea abies", 6, PlantingPattern::kRandom, 3, 25, 0}};
+  EXPECT_EQ(server_->client().create_scene(spec).name,
+            "scenes/" + content_hash(grow_forest(spec, species(), {})));
+}
+
+TEST_F(SceneService, SameContentIsOneScene) {
+  Client client = server_->client();
+  const std::string name = client.create_scene(row_of_trees(2, 150)).name;
+  const std::size_t scenes = load_of(client, "scenes");
+  EXPECT_EQ(client.create_scene(row_of_trees(2, 150)).name, name);
+  EXPECT_EQ(load_of(client, "scenes"), scenes);
+  EXPECT_NE(client.create_scene(row_of_trees(2, 151)).name, name);
+}
+
+TEST_F(SceneService, GetAndDelete) {
+  Client client = server_->client();
+  const SceneInfo scene = client.create_scene(row_of_trees(1, 123));
+  EXPECT_EQ(client.get_scene(scene.name).elements, scene.elements);
+  const std::size_t bytes = load_of(client, "scene_bytes");
+  client.delete_scene(scene.name);
+  EXPECT_EQ(load_of(client, "scene_bytes"), bytes - scene.memory_bytes);
+  for (const auto& call :
+       {std::function<void()>([&] { client.get_scene(scene.name); }),
+        std::function<void()>([&] { client.delete_scene(scene.name); }),
+        std::function<void()>([&] { client.light_map(scene.name, noon(Method::kSpp)); })}) {
+    try {
+      call();
+      ADD_FAILURE() << "a deleted scene was found";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kNotFound) << error.what();
+      EXPECT_NE(error.problem().find("ListScenes"), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST_F(SceneService, PagesHoldEverySceneOnceInOrder) {
+  ServedProcess server;
+  Client client = server.client();
+  std::vector<std::string> names;
+  for (int i = 0; i < 7; ++i) names.push_back(client.create_scene(row_of_trees(1, 20 + i)).name);
+  std::sort(names.begin(), names.end());
+
+  const auto stub = v1::SceneService::NewStub(server.channel());
+  std::vector<std::string> listed;
+  v1::ListScenesRequest request;
+  request.set_page_size(3);
+  int pages = 0;
+  do {
+    grpc::ClientContext context;
+    v1::ListScenesResponse page;
+    ASSERT_TRUE(stub->ListScenes(&context, request, &page).ok());
+    EXPECT_LE(page.scenes_size(), 3);
+    for (const v1::Scene& scene : page.scenes()) listed.push_back(scene.name());
+    request.set_page_token(page.next_page_token());
+    ++pages;
+  } while (!request.page_token().empty());
+  EXPECT_EQ(pages, 3);  // 3 + 3 + 1
+  EXPECT_EQ(listed, names);
+  EXPECT_EQ(client.list_scenes().size(), 7u);
+}
+
+TEST(SceneStoreBudget, RefusesWithARemedyAndServesOn) {
+  ServedProcess server("scene_store_bytes = 100000\n");
+  Client client = server.client();
+  const SceneInfo kept = client.create_scene(row_of_trees(1, 500));  // 44 bytes per element
+  try {
+    client.create_scene(row_of_trees(5, 500));
+    ADD_FAILURE() << "a scene larger than the store was kept";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kLimitExceeded) << error.what();
+    EXPECT_NE(error.problem().find("delete scenes"), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(client.get_scene(kept.name).elements, kept.elements);
+  client.delete_scene(kept.name);
+  EXPECT_NO_THROW(client.create_scene(row_of_trees(1, 600)));
+}
+
+}  // namespace
+}  // namespace sunfleck::test
