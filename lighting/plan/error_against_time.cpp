@@ -72,7 +72,8 @@ struct Timed {
 };
 
 bool is_setup(const std::string& stage) {
-  static const std::set<std::string> kSetup = {"preprocess", "building ray scene", "tracing rays", "depths"};
+  static const std::set<std::string> kSetup = {"preprocess", "building ray scene", "tracing rays",
+                                               "leaf-area grid", "sector depths"};
   return kSetup.contains(stage);
 }
 

@@ -70,6 +70,8 @@ void save_exr(const Image& image, const std::filesystem::path& path) {
                        "normal.Y", "normal.Z", "instance.id", "irradiance.Y"};
   spec.attribute("compression", "zip");
   spec.attribute("oiio:ColorSpace", "Linear");
+  // Without one, the library would write the time of day: equal pictures shall be equal files.
+  spec.attribute("DateTime", "1970:01:01 00:00:00");
   write_pixels(path, "openexr", spec, OIIO::TypeDesc::FLOAT, interleaved_layers(image).data());
 }
 

@@ -13,7 +13,7 @@
 namespace sunfleck {
 
 enum class SppVariant {
-  kSingleScattering,  // direct light and its first reflection or transmission only
+  kSingleScattering,  // I0 alone: leaves receive attenuated sun and sky, and reflect or pass it on once
   kSpp,               // plane-parallel multiple scattering
   kSppG               // the same with the geometric compensation factor, Eq. 28
 };

@@ -1,3 +1,5 @@
+#include <embree3/rtcore.h>
+
 #include "lighting/trace/embree_scene.h"
 
 #include <array>

@@ -1,8 +1,11 @@
 // Embree's side of a RayScene: one scene per prototype in tree coordinates, one scene of instances in world
 // coordinates moved by `centre_m` so that single precision loses nothing far from the world's origin.
+// Private to this folder. Embree is seen in .cpp files only: include <embree3/rtcore.h> before this header.
 #pragma once
 
-#include <embree3/rtcore.h>
+#ifndef RTC_VERSION
+#error "include <embree3/rtcore.h> first"
+#endif
 
 #include <atomic>
 #include <cstdint>

@@ -1,6 +1,8 @@
 // Shoots and wood as Embree user geometry. A shoot is a cylinder evenly filled with needles whose normals
 // point everywhere alike: a ray meets a needle after an optical depth -ln(1 - u), with half the one-sided
 // needle area per volume as extinction; u is hashed from the ray and the shoot.
+#include <embree3/rtcore.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -53,13 +55,11 @@ double needle_distance(const RayContext& context, const PrototypeScene& prototyp
 std::optional<ConeHit> wood_hit(const RayContext& context, const PrototypeScene& prototype,
                                 unsigned primitive, const RTCRay& ray) {
   const ConeFrustum& cone = prototype.cones[primitive];
-  double t_min = ray.tnear;
   if (is_start(context, context.embree.instID[0], HitKind::kWood, primitive)) {
     if (context.from.front) return std::nullopt;  // convex: rays leave its outer side for good
-    const double across = std::max(cone.radius_at_base, cone.radius_at_base + cone.taper * cone.length);
-    t_min = std::max(t_min, 1e-4 * across / glm::length(direction_of(ray)));
+    return leave(cone, origin_of(ray), direction_of(ray), ray.tfar);
   }
-  return intersect(cone, origin_of(ray), direction_of(ray), t_min, ray.tfar);
+  return intersect(cone, origin_of(ray), direction_of(ray), ray.tnear, ray.tfar);
 }
 
 const RayContext& context_of(const RTCIntersectContext* context) {

@@ -22,14 +22,11 @@ class RowTracer {
 
   void trace(const SurfaceSampler& surface, bool front, std::size_t face, int begin, int end) const {
     const RandomPurpose purpose = purpose_of(surface.object().kind, front);
-    RayStart from = surface.object();
-    from.front = front;
-    if (surface.is_shoot()) from.kind = HitKind::kSky;
     for (int k = begin; k < end; ++k) {
       RandomStream random(seed_, face, purpose, 2 * static_cast<std::uint32_t>(k));
       const SurfacePoint at = surface.sample(random);
       const Vec3 direction = cosine_direction(front ? at.normal : -at.normal, random);
-      record(face, k, scene_.closest_hit(at.position_m, direction, 0.0, from), direction);
+      record(face, k, scene_.closest_hit(at.position_m, direction, 0.0, surface.start(at, front)), direction);
     }
   }
 

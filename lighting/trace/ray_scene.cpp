@@ -1,5 +1,7 @@
 #include "lighting/trace/ray_scene.h"
 
+#include <embree3/rtcore.h>
+
 #include <bit>
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // Everything that receives and gives back light, numbered: surfaces are the foliage elements in ForestIndex
-// order, then every instance's wood segments and wood triangles, then the ground cells. Foliage and wood have
-// two faces (2 s front or outside, 2 s + 1 back or inside), a ground cell one.
+// order, then every instance's wood (groups of neighbouring segments, and triangles), then the ground cells.
+// Foliage and wood have two faces (2 s front or outside, 2 s + 1 back or inside), a ground cell one.
 #pragma once
 
 #include <cstdint>
@@ -17,6 +17,19 @@ namespace sunfleck::trace {
 struct SurfaceOptics {
   float reflect_front = 0, reflect_back = 0, pass_front = 0, pass_back = 0;
 };
+
+struct SegmentRange {
+  std::uint32_t first = 0, end = 0;
+};
+
+// Twigs are many and small: neighbouring segments share one receiver, as far as it stays within about half a
+// metre.
+struct WoodGroups {
+  std::vector<std::uint32_t> first_segment;  // of each group, and the end
+  std::vector<std::uint32_t> group_of_segment;
+  std::size_t count() const { return first_segment.size() - 1; }
+};
+WoodGroups group_wood(const Prototype& prototype);
 
 class Receivers {
  public:
@@ -45,8 +58,10 @@ class Receivers {
   std::size_t end_count() const { return face_count() + 3; }
   std::uint32_t met_by(const RayHit& hit) const;
 
-  // Which object a surface is; kGround: local is the cell.
+  // Which object a surface is; kGround: local is the cell; kWood: the first segment of the group.
   RayStart object(std::size_t surface) const;
+  // The segments of the group that starts with this one, as a range of the prototype's wood.
+  SegmentRange wood_group(PrototypeId prototype, std::uint32_t first_segment) const;
   double area_m2(std::size_t surface) const { return area_m2_[surface]; }
   std::vector<SurfaceOptics> optics(const OpticsTable& table, std::size_t band) const;
 
@@ -55,9 +70,17 @@ class Receivers {
   const GroundCells& ground() const { return ground_; }
 
  private:
+  std::size_t wood_surfaces(PrototypeId prototype) const;
+  const WoodGroups& groups_of(std::size_t instance) const {
+    return wood_groups_[forest_.instances[instance].prototype.value];
+  }
+  void add_foliage_areas();
+  void add_wood_areas();
+
   const Forest& forest_;
   const GroundCells& ground_;
   ForestIndex index_;
+  std::vector<WoodGroups> wood_groups_;  // of each prototype
   std::vector<std::size_t> wood_first_;  // of each instance among the wood surfaces
   std::vector<float> area_m2_;
 };

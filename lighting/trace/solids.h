@@ -24,6 +24,11 @@ struct ConeHit {
 std::optional<ConeHit> intersect(const ConeFrustum& cone, const Vec3& origin, const Vec3& direction,
                                  double t_min, double t_max);
 
+// Where a ray that starts on the inner side leaves the side again: the farther of the two points of the line,
+// so that a start off the surface by rounding cannot meet the outer side it never came from.
+std::optional<ConeHit> leave(const ConeFrustum& cone, const Vec3& origin, const Vec3& direction,
+                             double t_max);
+
 struct Cylinder {
   Vec3 centre{0}, axis{0, 0, 1};  // axis: unit
   double half_length = 0, radius = 0;

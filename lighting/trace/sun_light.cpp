@@ -16,10 +16,7 @@ void cast(SunLight& sun, const SurfaceSampler& surface, std::size_t s, int k, co
   const SurfacePoint at = surface.sample(random);
   const Vec3 to_sun = cone_direction(light.to_sun, light.sun_half_angle_rad, random);
   const double cosine = glm::dot(at.normal, to_sun);
-  RayStart from = surface.object();
-  from.front = cosine >= 0.0;
-  if (surface.is_shoot()) from.kind = HitKind::kSky;
-  if (scene.occluded(at.position_m, to_sun, 0.0, from)) return;
+  if (scene.occluded(at.position_m, to_sun, 0.0, surface.start(at, cosine >= 0.0))) return;
   ++sun.visible[s];
   // The disc's mean cosine to its own axis is (1 + cos half_angle) / 2.
   const double facing = 2.0 / (1.0 + std::cos(light.sun_half_angle_rad));

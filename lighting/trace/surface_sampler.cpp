@@ -11,6 +11,11 @@ Vec3 unit_or_up(const Vec3& v) {
   return length > 0.0 ? v / length : Vec3(0, 0, 1);
 }
 
+double side_area_m2(const ConeFrustum& cone) {
+  const double r0 = cone.radius_at_base, r1 = r0 + cone.taper * cone.length;
+  return kPi * (r0 + r1) * std::hypot(cone.length, r1 - r0);
+}
+
 Vec3 around(const Vec3& axis, double along, double across, double turn) {
   const Basis basis = basis_around(axis);
   return across * (std::cos(turn) * basis.tangent + std::sin(turn) * basis.bitangent) + along * axis;
@@ -24,7 +29,7 @@ SurfacePoint on_side(const ConeFrustum& cone, double part, double turn) {
       std::abs(r1 - r0) > 1e-9 * (r0 + r1) ? (radius - r0) / cone.taper : part * cone.length;
   const Basis basis = basis_around(cone.axis);
   const Vec3 spoke = std::cos(turn) * basis.tangent + std::sin(turn) * basis.bitangent;
-  return {cone.base + height * cone.axis + radius * spoke, glm::normalize(spoke - cone.taper * cone.axis)};
+  return {cone.base + height * cone.axis + radius * spoke, glm::normalize(spoke - cone.taper * cone.axis), 0};
 }
 
 }  // namespace
@@ -89,10 +94,15 @@ void SurfaceSampler::take_wood(const Receivers& receivers) {
   const Prototype& prototype = receivers.forest().prototypes[instance.prototype.value];
   const double scale = instance.scale;
   if (object_.kind == HitKind::kWood) {
-    const WoodSegment& s = prototype.wood[object_.local];
     shape_ = Shape::kCone;
-    cone_ = cone_between(world_from_tree(instance, s.from_m), world_from_tree(instance, s.to_m),
-                         scale * s.radius_from_m, scale * s.radius_to_m);
+    const SegmentRange group = receivers.wood_group(instance.prototype, object_.local);
+    double area_m2 = 0.0;
+    for (std::uint32_t i = group.first; i < group.end; ++i) {
+      const WoodSegment& s = prototype.wood[i];
+      cones_.push_back(cone_between(world_from_tree(instance, s.from_m), world_from_tree(instance, s.to_m),
+                                    scale * s.radius_from_m, scale * s.radius_to_m));
+      area_up_to_m2_.push_back(area_m2 += side_area_m2(cones_.back()));
+    }
     return;
   }
   const WoodTriangle& t = prototype.wood_mesh[object_.local];
@@ -114,27 +124,45 @@ void SurfaceSampler::take_ground(const Receivers& receivers) {
   normal_ = ground.normal;
 }
 
+// The segment whose share of the group's area holds `part`, and the same number again stretched over it.
+SurfacePoint SurfaceSampler::sample_wood(double part, double turn) const {
+  const double wanted_m2 = part * area_up_to_m2_.back();
+  const auto found = std::upper_bound(area_up_to_m2_.begin(), area_up_to_m2_.end(), wanted_m2);
+  const auto i = std::min(static_cast<std::size_t>(found - area_up_to_m2_.begin()), cones_.size() - 1);
+  const double before_m2 = i > 0 ? area_up_to_m2_[i - 1] : 0.0, own_m2 = area_up_to_m2_[i] - before_m2;
+  SurfacePoint point =
+      on_side(cones_[i], own_m2 > 0.0 ? std::clamp((wanted_m2 - before_m2) / own_m2, 0.0, 1.0) : 0.5, turn);
+  point.local = object_.local + static_cast<std::uint32_t>(i);
+  return point;
+}
+
+RayStart SurfaceSampler::start(const SurfacePoint& point, bool front) const {
+  if (is_shoot()) return {};  // a ray from a needle may meet other needles of its own shoot
+  return {object_.kind, front, object_.instance, point.local};
+}
+
 SurfacePoint SurfaceSampler::sample(RandomStream& random) const {
   const double a = random.uniform(), b = random.uniform();
   switch (shape_) {
     case Shape::kParallelogram:
-      return {origin_ + (2.0 * a - 1.0) * u_ + (2.0 * b - 1.0) * v_, normal_};
+      return {origin_ + (2.0 * a - 1.0) * u_ + (2.0 * b - 1.0) * v_, normal_, object_.local};
     case Shape::kDisc: {
       const double r = std::sqrt(a), turn = 2.0 * kPi * b;
-      return {origin_ + r * std::cos(turn) * u_ + r * std::sin(turn) * v_, normal_};
+      return {origin_ + r * std::cos(turn) * u_ + r * std::sin(turn) * v_, normal_, object_.local};
     }
     case Shape::kTriangle: {
       const double s = std::sqrt(a);
-      return {origin_ + s * (1.0 - b) * u_ + s * b * v_, normal_};
+      return {origin_ + s * (1.0 - b) * u_ + s * b * v_, normal_, object_.local};
     }
     case Shape::kCone:
-      return on_side(cone_, a, 2.0 * kPi * b);
+      return sample_wood(a, 2.0 * kPi * b);
     case Shape::kShoot:
       break;
   }
   const double r = std::sqrt(a), turn = 2.0 * kPi * b;
   const Vec3 along = (2.0 * random.uniform() - 1.0) * u_;
-  return {origin_ + along + r * std::cos(turn) * v_ + r * std::sin(turn) * w_, any_direction(random)};
+  return {origin_ + along + r * std::cos(turn) * v_ + r * std::sin(turn) * w_, any_direction(random),
+          object_.local};
 }
 
 }  // namespace sunfleck::trace

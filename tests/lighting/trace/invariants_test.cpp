@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lighting/base/summaries.h"
+#include "sim/base/random.h"
 #include "tests/lighting/trace/scenes.h"
 
 namespace sunfleck::test {
@@ -218,6 +219,30 @@ TEST(Invariant, SunDiscMakesPenumbra) {
   const LightMap map = trace_light(forest, 0.0, light, o);
   EXPECT_NEAR(map.sunlit_fraction[0], 0.5, 4 * 0.5 / std::sqrt(20000.0) + 0.01);
   EXPECT_NEAR(map.bands[0].elements[1].front.direct_w_m2, 1000.0, 1e-2);
+}
+
+// Twigs of a millimetre, far from the origin of their tree: rays from their inner side must not meet the
+// outer one, and what they take must be missing elsewhere. A cell of one metre, so that every ray crosses
+// many of them.
+TEST(Closure, HoldsForThinTwigsHighUp) {
+  for (const double height_m : {1.0, 20.0}) {
+    Forest forest = forest_of({}, {Leaf{0.45, 0.45, 0.9}});
+    Prototype& tree = forest.prototypes[0];
+    RandomStream random(5, 0, RandomPurpose::kTestScene);
+    const auto coordinate = [&] { return random.uniform(0.0, 1.0); };
+    for (int i = 0; i < 600; ++i) {
+      const Vec3 from(coordinate(), coordinate(), height_m + coordinate());
+      const Vec3 way = glm::normalize(Vec3(coordinate(), coordinate(), coordinate()) - 0.5);
+      tree.wood.push_back({Vec3f(from), Vec3f(from + 0.4 * way), 0.001f, 0.001f, 0});
+    }
+    tree.foliage.push_back(disc(Vec3(0.5, 0.5, height_m), {0, 0, 1}, 0.05));
+    forest.period = Period{{0, 0}, {1, 1}};
+    ReferenceOptions options;
+    options.rays_per_face = options.sun_rays_per_element = 256;
+    const LightMap map = trace_light(forest, 0.3, sunlight({0.3, 0.2, 1}, 100, 100), options);
+    expect_sound(map, forest);
+    EXPECT_GT(map.bands[0].budget.absorbed_wood_w, 10.0);
+  }
 }
 
 }  // namespace

@@ -32,6 +32,28 @@ double marched(const ConeFrustum& cone, const Vec3& origin, const Vec3& directio
   return -1.0;
 }
 
+// From a point of the inner side, moved off it by single precision either way, a ray that goes inwards must
+// reach the far wall or an open end: never the outer side next to where it started.
+TEST(Cone, IsLeftThroughItsFarWall) {
+  RandomStream random(9, 0, RandomPurpose::kTestScene);
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 base = random_point(random, 20.0);
+    const ConeFrustum cone =
+        cone_between(base, base + random_point(random, 1.0), 1e-3, random.uniform(2e-4, 1e-3));
+    const Basis basis = basis_around(cone.axis);
+    const double turn = random.uniform(0, 2 * kPi), height = random.uniform(0.1, 0.9) * cone.length;
+    const Vec3 spoke = std::cos(turn) * basis.tangent + std::sin(turn) * basis.bitangent;
+    const double radius = cone.radius_at_base + cone.taper * height;
+    const Vec3 exact = base + height * cone.axis + radius * spoke;
+    const Vec3 origin(Vec3f(exact.x, exact.y, exact.z));
+    const Vec3 direction = glm::normalize(-spoke + random.uniform(-1, 1) * glm::cross(cone.axis, spoke));
+    const auto hit = leave(cone, origin, direction, 1e30);
+    ASSERT_TRUE(hit.has_value()) << i;
+    EXPECT_FALSE(hit->from_outside) << i;
+    EXPECT_GT(hit->t, 0.5 * radius) << i;
+  }
+}
+
 TEST(Cone, MeetsWhereMarchingMeets) {
   RandomStream random(4, 0, RandomPurpose::kTestScene);
   int hits = 0, unlike = 0;
