@@ -22,7 +22,7 @@ void add_grow(CLI::App& app, GrowOptions& o) {
   c->add_option("--configs", o.configs, "Folder with species/ and grammars/");
   c->footer(
       "Examples:\n  sunfleck grow configs/scenes/mixed_stand.toml -o stand.vdb\n"
-      "  sunfleck grow --lsystem configs/grammars/beech.lsys --seed 7 -o beech.vdb\n"
+      "  sunfleck grow --lsystem configs/grammars/fagus_sylvatica.lsys --seed 7 -o beech.vdb\n"
       "  sunfleck grow --lsystem koch.lsys --steps 3 --print");
 }
 
