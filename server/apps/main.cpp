@@ -35,7 +35,8 @@ void add_light(CLI::App& app, LightOptions& o) {
   c->add_option("-o,--output", o.netcdf, "Light map to write (.nc)");
   c->add_option("--csv", o.element_csv, "Table of all elements to write (.csv)");
   c->add_option("--tree-csv", o.tree_csv, "Table of all trees to write (.csv)");
-  c->add_option("--threads", o.threads, "Threads; 0: all cores. The answer is the same for any number");
+  c->add_option("--threads", o.threads, "Threads; 0: all cores. The answer is the same for any number")
+      ->check(CLI::Range(0, 4096));
   c->footer(
       "Examples:\n  sunfleck light stand.vdb --scene configs/scenes/mixed_stand.toml -o light.nc --tree-csv "
       "trees.csv\n"
@@ -127,7 +128,9 @@ void add_bench(CLI::App& app, BenchOptions& o) {
   c->add_option("--reference-rays", o.reference_rays, "Rays per face of the truth")->capture_default_str();
   c->add_option("--seed", o.seed, "Seed of the scenes")->capture_default_str();
   c->add_option("--repeats", o.repeats, "Timed runs; the median is printed")->capture_default_str();
-  c->add_option("--threads", o.threads, "Threads; 0: all cores")->capture_default_str();
+  c->add_option("--threads", o.threads, "Threads; 0: all cores")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 4096));
   c->add_option("--csv", o.csv, "Table to write (.csv)");
   c->add_option("--configs", o.configs, "Folder with species/ and grammars/");
   c->footer(

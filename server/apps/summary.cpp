@@ -1,7 +1,9 @@
 #include "server/apps/summary.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <vector>
 
 #include "server/apps/terminal.h"
 
@@ -12,6 +14,22 @@ double total_wall_s(const Provenance& provenance) {
   double sum = 0.0;
   for (const StageTime& t : provenance.times) sum += t.wall_s;
   return sum;
+}
+
+// Rounds of the same stage added up, in the order they first appear.
+std::vector<StageTime> stage_sums(const Provenance& provenance) {
+  std::vector<StageTime> sums;
+  for (const StageTime& t : provenance.times) {
+    const auto same =
+        std::find_if(sums.begin(), sums.end(), [&](const StageTime& s) { return s.stage == t.stage; });
+    if (same == sums.end()) {
+      sums.push_back(t);
+    } else {
+      same->wall_s += t.wall_s;
+      same->cpu_s += t.cpu_s;
+    }
+  }
+  return sums;
 }
 
 void print_band(const BandLightMap& band) {
@@ -74,7 +92,7 @@ void print_light(const LightMap& map, const Forest& forest) {
   for (const std::string& note : map.provenance.notes) std::printf("note         %s\n", note.c_str());
   std::printf("time         %s", seconds_text(total_wall_s(map.provenance)).c_str());
   const char* separator = " (";
-  for (const StageTime& t : map.provenance.times) {
+  for (const StageTime& t : stage_sums(map.provenance)) {
     std::printf("%s%s %s", separator, t.stage.c_str(), seconds_text(t.wall_s).c_str());
     separator = ", ";
   }

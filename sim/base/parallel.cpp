@@ -79,7 +79,8 @@ double ordered_sum(std::size_t count, const std::function<double(std::size_t)>& 
 }
 
 void with_threads(int threads, const std::function<void()>& work) {
-  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+  const int cores = tbb::this_task_arena::max_concurrency();
+  tbb::task_arena arena(threads > 0 ? std::min(threads, cores) : tbb::task_arena::automatic);
   arena.execute(work);
 }
 
