@@ -86,6 +86,11 @@ std::vector<std::string> missing_bounce_notes(const Forest& forest, const Optics
                                               const BlockerField& field, const SectorDepths& depths) {
   std::vector<std::string> notes;
   const double recollision = mean_recollision(field, depths);
+  for (std::size_t b = 0; b < optics.band_count(); ++b)
+    if (optics.soil_albedo(b) > 0.0) {
+      notes.push_back("the ground counts as fully lit: under a closed canopy its light is too strong");
+      break;
+    }
   for (std::size_t b = 0; b < optics.band_count(); ++b) {
     const double again = std::min(1.0, largest_albedo(forest, optics, b)) * recollision;
     if (again < kNotableRecollision) continue;

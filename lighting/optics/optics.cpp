@@ -28,9 +28,9 @@ MaterialOptics stored_optics(const Material& material, const std::string& band) 
               b.bark_reflectance};
     known += (known.empty() ? "" : ", ") + b.band;
   }
-  throw_invalid(
-      "bands." + band, "material '" + material.name + "' has no numbers for this band",
-      known.empty() ? "state leaf optics for it" : "one of " + known + ", or state leaf optics for it");
+  throw_invalid("bands." + band, "material '" + material.name + "' has no numbers for this band",
+                (known.empty() ? "" : "one of " + known + ", or ") +
+                    "give its leaf_reflectance and leaf_transmittance in [[light.optics]]");
 }
 
 MaterialOptics find_optics(const Material& material, const std::string& band,
@@ -39,6 +39,17 @@ MaterialOptics find_optics(const Material& material, const std::string& band,
     for (const OpticsOverride& o : overrides)
       if (o.band == band && o.material == (general ? "*" : material.name)) return o.optics;
   return stored_optics(material, band);
+}
+
+void check_override(const Forest& forest, const OpticsRequest& request, const OpticsOverride& o) {
+  if (std::find(request.bands.begin(), request.bands.end(), o.band) == request.bands.end())
+    throw_invalid("optics." + o.band, "no band of that name is asked for", "one of the request's bands");
+  std::string known;
+  for (const Material& m : forest.materials) {
+    if (o.material == "*" || o.material == m.name) return;
+    known += ", " + m.name;
+  }
+  throw_invalid("optics." + o.material, "the forest has no material of that name", "one of *" + known);
 }
 
 const Material& find_material(const Forest& forest, const std::string& name) {
@@ -68,6 +79,7 @@ void check_request(const OpticsRequest& request) {
 OpticsTable::OpticsTable(const Forest& forest, const OpticsRequest& request)
     : bands_(request.bands), soil_albedo_(request.soil_albedo) {
   check_request(request);
+  for (const OpticsOverride& o : request.overrides) check_override(forest, request, o);
   std::size_t rows = 0;
   for (const Prototype& p : forest.prototypes) {
     first_.push_back(rows);

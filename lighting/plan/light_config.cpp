@@ -17,7 +17,13 @@ Vec3 read_sun_by_place(const ConfigTable& sun) {
 }
 
 Vec3 read_to_sun(const ConfigTable& sun) {
-  if (sun.has("latitude_deg") || sun.has("time")) return read_sun_by_place(sun);
+  if (sun.has("latitude_deg") || sun.has("time")) {
+    for (const char* key : {"zenith_deg", "azimuth_deg"})
+      if (sun.has(key))
+        throw_invalid(sun.where(key), "the sun is given by place and time as well",
+                      "either latitude_deg, longitude_deg and time, or zenith_deg and azimuth_deg");
+    return read_sun_by_place(sun);
+  }
   return direction_from_azimuth_zenith(radians_from_degrees(sun.number("azimuth_deg", {-360, 360})),
                                        radians_from_degrees(sun.number("zenith_deg", {0, 180})));
 }
@@ -73,6 +79,8 @@ ReferenceOptions read_reference(const ConfigTable& table) {
   o.max_rays_per_face =
       static_cast<int>(table.integer_or("max_rays_per_face", o.max_rays_per_face, {1, 65536}));
   o.ground_cell_m = table.number_or("ground_cell_m", 0, {0, 1e5});
+  if (o.target_relative_error > 0 && o.max_rays_per_face < o.rays_per_face)
+    throw_invalid(table.where("max_rays_per_face"), "is below rays_per_face", "at least as many");
   const double gib = table.number_or("memory_limit_gib", 8, {0.001, 4096});
   o.memory_limit_bytes = static_cast<std::uint64_t>(std::llround(gib * 1024.0 * 1024.0 * 1024.0));
   return o;
@@ -86,6 +94,37 @@ SppOptions read_spp(const ConfigTable& table) {
     throw_invalid(table.where("sample_directions"), "must be 16 or 22", "16 or 22");
   o.map_resolution = static_cast<int>(table.integer_or("map_resolution", o.map_resolution, {8, 1024}));
   o.grid_resolution = static_cast<int>(table.integer_or("grid_resolution", o.grid_resolution, {2, 64}));
+  return o;
+}
+
+GridOptions read_grid(const ConfigTable& table) {
+  GridOptions o;
+  o.directions = static_cast<int>(table.integer_or("directions", o.directions, {8, 26}));
+  if (o.directions != 8 && o.directions != 14 && o.directions != 26)
+    throw_invalid(table.where("directions"), "there is no set of " + std::to_string(o.directions),
+                  "8, 14 or 26");
+  o.cell_m = table.number_or("cell_m", o.cell_m, {0, 1000});
+  o.convergence = table.number_or("convergence", o.convergence, {1e-9, 1});
+  o.max_iterations = static_cast<int>(table.integer_or("max_iterations", o.max_iterations, {1, 10000}));
+  return o;
+}
+
+ProbePlan read_probes(const ConfigTable& table) {
+  constexpr Range kRays{2, 65536};
+  ProbePlan p;
+  p.count = static_cast<int>(table.integer_or("count", p.count, {16, 1000000}));
+  p.paths_per_face = static_cast<int>(table.integer_or("paths_per_face", p.paths_per_face, kRays));
+  p.sun_rays = static_cast<int>(table.integer_or("sun_rays", p.sun_rays, kRays));
+  p.seed = static_cast<std::uint64_t>(table.integer_or("seed", 1, {0, 9e15}));
+  return p;
+}
+
+AutoOptions read_auto(const ConfigTable& table) {
+  AutoOptions o;
+  o.tolerance = table.number_or("tolerance", o.tolerance, {1e-6, 1});
+  o.measure = table.choice_or("measure", to_string(o.measure), {"element_rms", "bias"}) == "bias"
+                  ? AutoMeasure::kBias
+                  : AutoMeasure::kElementRms;
   return o;
 }
 
@@ -107,6 +146,8 @@ LightRequest read_light_request(const ConfigTable& table) {
     request.optics.bands.push_back(band.text("name"));
     request.optics.soil_albedo.push_back(band.number_or("soil_albedo", 0.15, {0, 1}));
     light.bands.push_back(read_strengths(band, light.to_sun));
+    if (light.bands.back().beam_normal_w_m2 > 0 && !table.has("sun"))
+      throw_invalid(band.where("name"), "has sunlight, but the sun has no place", "a [light.sun] table");
   }
   if (light.bands.empty())
     throw_invalid(table.where("bands"), "no band is given", "at least one [[light.bands]] with a name");
@@ -115,6 +156,9 @@ LightRequest read_light_request(const ConfigTable& table) {
   if (const auto knobs = table.table_if("spp")) request.spp = read_spp(*knobs);
   if (const auto knobs = table.table_if("envelope"))
     request.envelope.cell_m = knobs->number_or("cell_m", 0, {0, 1000});
+  if (const auto knobs = table.table_if("grid")) request.grid = read_grid(*knobs);
+  if (const auto knobs = table.table_if("auto")) request.automatic = read_auto(*knobs);
+  if (const auto knobs = table.table_if("probes")) request.probes = read_probes(*knobs);
   return request;
 }
 

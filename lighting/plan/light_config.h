@@ -14,7 +14,9 @@ namespace sunfleck {
 //   [[light.bands]] name, soil_albedo, diffuse_horizontal_w_m2,
 //                direct_horizontal_w_m2 or beam_normal_w_m2
 //   [[light.optics]] material, band, leaf_reflectance, leaf_transmittance (or ..._front, ..._back),
-//   bark_reflectance [light.reference], [light.spp], [light.envelope]  knobs as in their option structs
+//   bark_reflectance [light.reference], [light.spp], [light.envelope], [light.grid]  knobs as in their option
+//   structs [light.auto] tolerance, measure            "element_rms" or "bias" [light.probes] count,
+//   paths_per_face, sun_rays, seed   measure the error of the answer of any method
 LightRequest read_light_request(const ConfigTable& table);
 
 }  // namespace sunfleck

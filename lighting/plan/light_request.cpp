@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "lighting/base/summaries.h"
+#include "lighting/plan/auto_method.h"
 #include "sim/base/contract.h"
 #include "sim/base/error.h"
 #include "sim/base/parallel.h"
@@ -19,7 +20,9 @@ const std::vector<std::pair<Method, std::string>>& methods() {
       {Method::kSpp, "spp"},
       {Method::kSppG, "spp_g"},
       {Method::kEnvelope, "envelope"},
-      {Method::kEnvelopeMarched, "envelope_marched"}};
+      {Method::kEnvelopeMarched, "envelope_marched"},
+      {Method::kGrid, "grid"},
+      {Method::kAuto, "auto"}};
   return table;
 }
 
@@ -77,8 +80,24 @@ LightMap run_method(const Forest& forest, const OpticsTable& optics, const Illum
     case Method::kEnvelopeMarched:
       return envelope_light_map(forest, optics, light, envelope_options(request, EnvelopeSun::kMarched),
                                 control);
+    case Method::kGrid:
+      return grid_light_map(forest, optics, light, request.grid, control);
+    case Method::kAuto:
+      return auto_light_map(
+          forest, optics, light, request,
+          [&](const LightRequest& asked) { return run_method(forest, optics, light, asked, control); },
+          control);
   }
   throw ContractViolation("unknown method");
+}
+
+// One note per skipped thing: an estimator may have said in its own words what was taken away before it.
+void merge_skipped(std::vector<SkipNote>& notes, const std::vector<SkipNote>& first) {
+  std::vector<SkipNote> merged = first;
+  for (const SkipNote& note : notes)
+    if (std::none_of(merged.begin(), merged.end(), [&](const SkipNote& m) { return m.what == note.what; }))
+      merged.push_back(note);
+  notes = std::move(merged);
 }
 
 void sign(LightMap& map, const Forest& forest, const LightRequest& request,
@@ -87,8 +106,11 @@ void sign(LightMap& map, const Forest& forest, const LightRequest& request,
   p.method = to_string(request.method);
   p.version = kVersion;
   p.forest_hash = content_hash(forest);
-  if (request.method == Method::kReference) p.seed = request.reference.seed;
-  p.skipped.insert(p.skipped.begin(), skipped.begin(), skipped.end());
+  if (request.method == Method::kReference || request.method == Method::kAuto)
+    p.seed = request.reference.seed;
+  merge_skipped(p.skipped, skipped);
+  const auto light = describe_light(forest, request);
+  p.settings.insert(p.settings.begin(), light.begin(), light.end());
 }
 
 }  // namespace
@@ -124,10 +146,13 @@ LightMap compute_light_map(const Forest& forest, const LightRequest& request, co
   require_leaves(forest, index);
   const OpticsTable optics(forest, request.optics);
   Illumination light = checked(request.light, optics.band_count());
+  if (request.probes) check_options(*request.probes);
   const std::vector<SkipNote> skipped = drop_idle_sources(light);
   LightMap map;
   with_threads(cost.threads, [&] {
     map = run_method(forest, optics, light, request, control);
+    if (request.probes && request.method != Method::kAuto)
+      add_error_bars(forest, optics, light, *request.probes, request.reference.ground, map, control);
     sign(map, forest, request, skipped);
   });
   if (const std::string violation = find_violation(map, index); !violation.empty())

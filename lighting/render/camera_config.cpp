@@ -39,8 +39,7 @@ Camera read_camera(const ConfigTable& table) {
   return c;
 }
 
-Camera default_camera(const Forest& forest) {
-  const Box box = forest_bounds(forest);
+Camera default_camera(const Box& box) {
   const Vec3 size = box.size(), centre = box.empty() ? Vec3(0) : box.centre();
   const double reach = std::max({size.x, size.y, size.z, 1e-3});
   Camera c;

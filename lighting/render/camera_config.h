@@ -10,7 +10,7 @@ namespace sunfleck {
 // vertical_fov_deg, ortho_height_m, width_px, height_px, samples_per_pixel, seed. Others are refused.
 Camera read_camera(const ConfigTable& table);
 
-// Looks at the middle of a forest from the south, far enough to see all of it.
-Camera default_camera(const Forest& forest);
+// Looks at the middle of a forest's box from the south, far enough to see all of it.
+Camera default_camera(const Box& forest_bounds);
 
 }  // namespace sunfleck

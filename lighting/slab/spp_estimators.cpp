@@ -90,6 +90,11 @@ class Estimate {
 
  private:
   bool is(SppVariant variant) const { return options_.variant == variant; }
+  bool has_ground() const {
+    for (std::size_t b = 0; b < optics_.band_count(); ++b)
+      if (optics_.soil_albedo(b) > 0.0) return true;
+    return false;
+  }
   bool needs_cells() const { return has_sky_ || (has_sun_ && is(SppVariant::kSppG)); }
 
   void preprocess() {
@@ -222,12 +227,18 @@ class Estimate {
       settings.emplace_back("sun_yaw_step_rad", text_of(sun_.yaw_step_rad));
     }
     if ((has_sun_ && !sun_.complete) || (needs_cells() && !cells_.complete))
-      map_.provenance.notes.push_back("the light is so low that trees farther than 32 periods are left out");
+      map_.provenance.notes.push_back(
+          "light from low directions: trees farther than 32 periods are left out");
     if (!is(SppVariant::kSingleScattering))
       map_.provenance.notes.push_back(
           "scattered light is that of a slab: expect tens of percent per leaf on isolated crowns");
     if (light_.sun_half_angle_rad > 0.0)
       map_.provenance.notes.push_back("the sun is taken as a point; maps blur its shadows by a texel");
+    if (has_ground())
+      map_.provenance.notes.push_back(
+          is(SppVariant::kSppG)
+              ? "ground light is part of the slab: compensation takes it away too where a crown stands alone"
+              : "ground light is part of the slab: it arrives along the light's own axis, not from below");
   }
 
   const Forest& forest_;

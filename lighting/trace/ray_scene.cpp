@@ -182,14 +182,18 @@ RayHit RayScene::closest_hit(const Vec3& origin_m, const Vec3& direction, double
     found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(s.top.get(), &context.embree, &found);
     if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-    hit = described(found, s.copies[found.hit.instID[0]], piece, direction, context.ray_key);
+    const SceneCopy& copy = s.copies[found.hit.instID[0]];
+    hit = described(found, copy, piece, direction, context.ray_key);
+    hit.on_original_m = into_base_cell(s.around, hit.position_m, copy.shift);
     return true;
   });
   if (end.kind != RayEnd::kStopped) {
     const Vec3 up = glm::normalize(Vec3(-s.around.ground_rise.x, -s.around.ground_rise.y, 1.0));
     hit = ended(end, s.around, up, origin, direction);
+    hit.on_original_m = hit.position_m;
   }
   hit.position_m += s.centre_m;
+  hit.on_original_m += s.centre_m;
   return hit;
 }
 

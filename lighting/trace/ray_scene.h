@@ -21,7 +21,10 @@ struct RayHit {
   std::uint32_t local = 0;     // foliage element, wood segment or triangle of its prototype
   double distance_m = 0;
   Vec3 position_m{0};  // world; for a periodic forest brought back into the base cell
-  Vec3 normal{0};      // unit, of the surface hit, turned towards the ray's origin
+  // The same point on the original where a wrapped copy was hit: a ray goes on from here with a RayStart of
+  // the same kind, instance and local.
+  Vec3 on_original_m{0};
+  Vec3 normal{0};  // unit, of the surface hit, turned towards the ray's origin
 };
 
 // The surface a ray starts on, so that it does not hit the place it leaves. kSky: none. Shoots are no

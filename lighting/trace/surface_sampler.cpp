@@ -143,6 +143,10 @@ RayStart SurfaceSampler::start(const SurfacePoint& point, bool front) const {
 
 SurfacePoint SurfaceSampler::sample(RandomStream& random) const {
   const double a = random.uniform(), b = random.uniform();
+  return sample_at(a, b, random);
+}
+
+SurfacePoint SurfaceSampler::sample_at(double a, double b, RandomStream& random) const {
   switch (shape_) {
     case Shape::kParallelogram:
       return {origin_ + (2.0 * a - 1.0) * u_ + (2.0 * b - 1.0) * v_, normal_, object_.local};

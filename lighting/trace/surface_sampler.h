@@ -21,6 +21,9 @@ class SurfaceSampler {
 
   // For a shoot: a point of its volume and a needle normal turned any way.
   SurfacePoint sample(RandomStream& random) const;
+  // The same from two numbers in [0, 1) that spread over the surface as they spread over the unit square;
+  // only a shoot takes its remaining ones from `random`.
+  SurfacePoint sample_at(double a, double b, RandomStream& random) const;
   const RayStart& object() const { return object_; }
   // What a ray from a sampled point starts on.
   RayStart start(const SurfacePoint& point, bool front) const;

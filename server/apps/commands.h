@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,8 +14,8 @@ namespace sunfleck {
 
 struct GrowOptions {
   std::filesystem::path scene, lsystem, output, configs;
-  int steps = -1;
-  std::uint64_t seed = 1;
+  int steps = -1;                     // -1: what the grammar says
+  std::optional<std::uint64_t> seed;  // else 1, or the scene file's
   bool print = false;
 };
 void run_grow(const GrowOptions& options, const RunControl& control);

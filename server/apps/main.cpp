@@ -16,8 +16,9 @@ void add_grow(CLI::App& app, GrowOptions& o) {
   c->add_option("scene", o.scene, "Scene file (TOML) with a [forest] table");
   c->add_option("--lsystem", o.lsystem, "L-system grammar (.lsys) to grow instead of a scene");
   c->add_option("-o,--output", o.output, "File to write: .vdb");
-  c->add_option("--steps", o.steps, "Derivation steps; default: what the grammar says");
-  c->add_option("--seed", o.seed, "Seed of an L-system's random choices")->capture_default_str();
+  c->add_option("--steps", o.steps, "Derivation steps; default: what the grammar says")
+      ->check(CLI::Range(0, 1000000));
+  c->add_option("--seed", o.seed, "Seed, instead of 1 or the scene file's")->check(CLI::NonNegativeNumber);
   c->add_flag("--print", o.print, "Print the derived string of an L-system");
   c->add_option("--configs", o.configs, "Folder with species/ and grammars/");
   c->footer(
@@ -26,12 +27,17 @@ void add_grow(CLI::App& app, GrowOptions& o) {
       "  sunfleck grow --lsystem koch.lsys --steps 3 --print");
 }
 
+std::string known_methods() {
+  std::string names;
+  for (const std::string& name : method_names()) names += (names.empty() ? "" : ", ") + name;
+  return names;
+}
+
 void add_light(CLI::App& app, LightOptions& o) {
   CLI::App* c = app.add_subcommand("light", "Compute the light on every foliage element of a forest");
   c->add_option("forest", o.forest, "Forest (.vdb)")->required();
   c->add_option("--scene", o.scene, "Scene file (TOML) with a [light] table")->required();
-  c->add_option("--method", o.method,
-                "One of reference, single_scattering, spp, spp_g, envelope, envelope_marched");
+  c->add_option("--method", o.method, "Instead of the scene file's: " + known_methods());
   c->add_option("-o,--output", o.netcdf, "Light map to write (.nc)");
   c->add_option("--csv", o.element_csv, "Table of all elements to write (.csv)");
   c->add_option("--tree-csv", o.tree_csv, "Table of all trees to write (.csv)");
@@ -105,7 +111,7 @@ void add_service(CLI::App& app, ServeOptions& serve, ClientOptions& client) {
   c->add_option("--address", client.address, "unix:PATH or HOST:PORT")->required();
   c->add_option("--scene-file", client.scene, "Scene file (TOML)");
   c->add_option("--scene", client.scene_name, "Name the server gave a scene: scenes/...");
-  c->add_option("--method", client.method, "Method, instead of the scene file's");
+  c->add_option("--method", client.method, "Instead of the scene file's: " + known_methods());
   c->add_option("-o,--output", client.netcdf, "Light map to write (.nc)");
   c->add_option("--csv", client.element_csv, "Table of all elements to write (.csv)");
   c->add_option("--tree-csv", client.tree_csv, "Table of all trees to write (.csv)");
@@ -126,7 +132,7 @@ void add_bench(CLI::App& app, BenchOptions& o) {
   c->add_option("--bands", o.bands, "PAR, NIR or all")->capture_default_str();
   c->add_option("--elements", o.elements, "Leaves of a generated crown")->capture_default_str();
   c->add_option("--reference-rays", o.reference_rays, "Rays per face of the truth")->capture_default_str();
-  c->add_option("--seed", o.seed, "Seed of the scenes")->capture_default_str();
+  c->add_option("--seed", o.seed, "Seed of the scenes")->capture_default_str()->check(CLI::NonNegativeNumber);
   c->add_option("--repeats", o.repeats, "Timed runs; the median is printed")->capture_default_str();
   c->add_option("--threads", o.threads, "Threads; 0: all cores")
       ->capture_default_str()

@@ -5,6 +5,7 @@
 
 #include "lighting/plan/error_against_time.h"
 #include "server/apps/commands.h"
+#include "server/apps/outputs.h"
 #include "server/apps/scene_file.h"
 #include "server/apps/terminal.h"
 #include "sim/base/error.h"
@@ -84,12 +85,13 @@ void check(const BenchOptions& o) {
 
 void run_bench(const BenchOptions& o, const RunControl& control) {
   check(o);
+  if (!o.csv.empty()) check_outputs("bench", {{"--csv", o.csv, ".csv"}});
   const LightRequest request = sun_and_sky(o);
-  const BenchmarkPlan plan{
-      o.reference_rays,
-      o.repeats,
-      {o.threads},
-      {Method::kSingleScattering, Method::kSpp, Method::kSppG, Method::kEnvelope, Method::kEnvelopeMarched}};
+  const BenchmarkPlan plan{o.reference_rays,
+                           o.repeats,
+                           {o.threads},
+                           {Method::kSingleScattering, Method::kSpp, Method::kSppG, Method::kEnvelope,
+                            Method::kEnvelopeMarched, Method::kGrid}};
   std::string csv =
       "scene,band,method,knob,elements,bias,element_rms,cell_rms,diffuse_rms,truth_noise,wall_s,cpu_s,setup_"
       "s\n";

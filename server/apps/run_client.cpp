@@ -4,6 +4,7 @@
 #include "lighting/map/light_map_file.h"
 #include "lighting/render/camera_config.h"
 #include "server/apps/commands.h"
+#include "server/apps/outputs.h"
 #include "server/apps/scene_file.h"
 #include "server/apps/summary.h"
 #include "server/apps/terminal.h"
@@ -63,6 +64,9 @@ void print_info(Client& client) {
 }
 
 void fetch_light(const ClientOptions& o, Client& client, const RunControl& control) {
+  check_outputs(
+      "client light",
+      {{"-o", o.netcdf, ".nc"}, {"--csv", o.element_csv, ".csv"}, {"--tree-csv", o.tree_csv, ".csv"}});
   const SceneFile scene = required_scene_file(o);
   const LightRequest request = required_light(o, scene);
   required_scene_name(o);
@@ -78,15 +82,16 @@ void fetch_light(const ClientOptions& o, Client& client, const RunControl& contr
 }
 
 void fetch_picture(const ClientOptions& o, Client& client, const RunControl& control) {
-  if (o.png.empty() && o.exr.empty())
-    throw_invalid("client render", "nowhere to write", "--png FILE or --exr FILE");
+  check_outputs("client render", {{"--png", o.png, ".png"}, {"--exr", o.exr, ".exr"}});
   const SceneFile scene = required_scene_file(o);
-  if (!scene.camera) throw_invalid(o.scene.string(), "has no [camera] table", "where to look from");
+  const SceneInfo info = client.get_scene(required_scene_name(o));
+  const Camera camera =
+      scene.camera ? *scene.camera : default_camera(Box{info.bounds_lo_m, info.bounds_hi_m});
   const auto files = o.exr.empty()   ? Client::Files::kPng
                      : o.png.empty() ? Client::Files::kExr
                                      : Client::Files::kExrAndPng;
   const RemoteRender picture =
-      client.render(required_scene_name(o), required_light(o, scene), *scene.camera, files, control);
+      client.render(required_scene_name(o), required_light(o, scene), camera, files, control);
   if (!o.png.empty()) write_whole_file(o.png, picture.png);
   if (!o.exr.empty()) write_whole_file(o.exr, picture.exr);
   finish_progress();
@@ -115,7 +120,11 @@ void run_client(const ClientOptions& o, const RunControl& control) {
     for (const SceneInfo& s : client.list_scenes()) print_scene(s);
     return;
   }
-  if (o.action == "delete") return client.delete_scene(required_scene_name(o));
+  if (o.action == "delete") {
+    client.delete_scene(required_scene_name(o));
+    std::printf("deleted      %s\n", o.scene_name.c_str());
+    return;
+  }
   if (o.action == "light") return fetch_light(o, client, control);
   fetch_picture(o, client, control);
 }

@@ -1,10 +1,12 @@
 // info, import and export: files in and out, no light computed.
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <sstream>
 
 #include "lighting/map/light_map_file.h"
 #include "server/apps/commands.h"
+#include "server/apps/outputs.h"
 #include "server/apps/scene_file.h"
 #include "server/apps/summary.h"
 #include "server/apps/terminal.h"
@@ -27,6 +29,9 @@ void print_light_file(const std::filesystem::path& path) {
                 grouped(band.trees.size()).c_str(), band.mean_irradiance_w_m2);
   for (const auto& [name, value] : map.provenance.settings)
     std::printf("  %s = %s\n", name.c_str(), value.c_str());
+  for (const SkipNote& s : map.provenance.skipped)
+    std::printf("skipped      %s: %s\n", s.what.c_str(), s.reason.c_str());
+  for (const std::string& note : map.provenance.notes) std::printf("note         %s\n", note.c_str());
 }
 
 void print_forest_file(const std::filesystem::path& path) {
@@ -87,6 +92,16 @@ std::vector<Instance> read_instances(const std::filesystem::path& path) {
   return instances;
 }
 
+// Every mapping must have met a face: else it names a material the file does not have.
+void check_used(const std::vector<std::string>& pairs, const std::string& option,
+                const Prototype& prototype) {
+  for (const auto& [file_material, material] : read_pairs(pairs, option))
+    if (std::find(prototype.materials.begin(), prototype.materials.end(), material) ==
+        prototype.materials.end())
+      throw_invalid(option, "the file has no face of material '" + file_material + "'",
+                    "a material of the file");
+}
+
 // A species' optics where the name is one, else a material whose optics the scene file must state.
 Material find_material(const std::string& name, const std::filesystem::path& configs) {
   const SpeciesLibrary library = SpeciesLibrary::load(find_configs(configs) / "species");
@@ -101,14 +116,15 @@ Material find_material(const std::string& name, const std::filesystem::path& con
 
 void export_trees(const Forest& forest, const std::filesystem::path& path) {
   std::ostringstream out;
-  out << "tree_id,prototype,x_m,y_m,z_m,yaw_rad,scale,height_m,leaf_area_m2\n";
+  out << "id_tree,species,x,y,dbh_cm,h_m,z_m,yaw_rad,scale,prototype,leaf_area_m2\n";
   out.precision(9);
   for (const Instance& i : forest.instances) {
     const Prototype& p = forest.prototypes[i.prototype.value];
     const TreeMeasures m = measure(p);
     const double scale = i.scale;
-    out << i.tree.value << ',' << p.name << ',' << i.position_m.x << ',' << i.position_m.y << ','
-        << i.position_m.z << ',' << i.yaw_rad << ',' << i.scale << ',' << scale * m.height_m << ','
+    out << i.tree.value << ",\"" << (p.materials.empty() ? "" : p.materials[0]) << "\"," << i.position_m.x
+        << ',' << i.position_m.y << ',' << 100 * scale * m.dbh_m << ',' << scale * m.height_m << ','
+        << i.position_m.z << ',' << i.yaw_rad << ',' << i.scale << ",\"" << p.name << "\","
         << scale * scale * m.leaf_area_m2 << '\n';
   }
   write_whole_file(path, out.str());
@@ -122,13 +138,15 @@ void run_info(const InfoOptions& o) {
 }
 
 void run_import(const ImportOptions& o) {
-  if (o.output.extension() != ".vdb") throw_invalid("--output", "must end in .vdb", "-o FILE.vdb");
+  check_outputs("import", {{"-o", o.output, ".vdb"}});
   Forest forest;
   forest.name = o.file.stem().string();
   ImportReport report;
   forest.prototypes.push_back(read_prototype(o, report));
   for (const std::string& name : forest.prototypes[0].materials)
     forest.materials.push_back(find_material(name, o.configs));
+  check_used(o.leaf_materials, "--leaf", forest.prototypes[0]);
+  check_used(o.wood_materials, "--wood", forest.prototypes[0]);
   forest.instances = o.instances.empty() ? std::vector<Instance>(1) : read_instances(o.instances);
   if (!o.period.empty()) forest.period = Period{{o.period[0], o.period[1]}, {o.period[2], o.period[3]}};
   validate(forest);

@@ -2,6 +2,7 @@
 
 #include "lighting/map/light_map_file.h"
 #include "server/apps/commands.h"
+#include "server/apps/outputs.h"
 #include "server/apps/scene_file.h"
 #include "server/apps/summary.h"
 #include "server/apps/terminal.h"
@@ -11,8 +12,9 @@
 namespace sunfleck {
 
 void run_light(const LightOptions& o, const RunControl& control) {
-  if (o.netcdf.empty() && o.element_csv.empty() && o.tree_csv.empty())
-    throw_invalid("light", "nowhere to write", "-o FILE.nc, --csv FILE or --tree-csv FILE");
+  check_outputs(
+      "light",
+      {{"-o", o.netcdf, ".nc"}, {"--csv", o.element_csv, ".csv"}, {"--tree-csv", o.tree_csv, ".csv"}});
   const SceneFile scene = read_scene_file(o.scene);
   if (!scene.light) throw_invalid(o.scene.string(), "has no [light] table", "say which sun, sky and bands");
   LightRequest request = *scene.light;

@@ -45,7 +45,7 @@ void print_band(const BandLightMap& band) {
   if (has_error)
     std::printf(" +- %.2g (standard error)\n", band.mean_irradiance_standard_error_w_m2);
   else
-    std::printf("; this method does not know its error\n");
+    std::printf("; no error estimate of its own\n");
   if (has_error) {
     double squares = 0.0;
     for (const float e : band.standard_error_w_m2) squares += static_cast<double>(e) * e;
@@ -86,6 +86,10 @@ void print_light(const LightMap& map, const Forest& forest) {
   std::printf("trees        %s with %s foliage elements\n", grouped(forest.instances.size()).c_str(),
               grouped(index.element_count()).c_str());
   for (const BandLightMap& band : map.bands) print_band(band);
+  for (const auto& [name, value] : map.provenance.settings)
+    if (name.starts_with("measured_") || name == "chosen_method")
+      std::printf("%-12s %s = %s\n", name.starts_with("measured_") ? "error" : "auto", name.c_str(),
+                  value.c_str());
   for (const SkipNote& s : map.provenance.skipped)
     std::printf("skipped      %s: %s (changes no value by more than %.2g of the mean)\n", s.what.c_str(),
                 s.reason.c_str(), s.relative_bound);

@@ -43,8 +43,6 @@ void check_directions(const Camera& camera, const std::string& field, Violations
     violations.add(field + ".look_at_m", "must differ from position_m");
   } else if (glm::length(camera.up) < 1e-9) {
     violations.add(field + ".up", "must not have length 0");
-  } else if (glm::length(glm::cross(glm::normalize(view), glm::normalize(camera.up))) < 1e-9) {
-    violations.add(field + ".up", "must not be parallel to the viewing direction");
   }
 }
 

@@ -20,6 +20,10 @@ v1::Method message_method(Method method) {
       return v1::METHOD_ENVELOPE;
     case Method::kEnvelopeMarched:
       return v1::METHOD_ENVELOPE_MARCHED;
+    case Method::kGrid:
+      return v1::METHOD_GRID;
+    case Method::kAuto:
+      return v1::METHOD_AUTO;
   }
   return v1::METHOD_UNSPECIFIED;
 }

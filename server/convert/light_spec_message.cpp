@@ -25,13 +25,18 @@ Method method_from_message(v1::Method method, const std::string& field, Violatio
       return Method::kEnvelope;
     case v1::METHOD_ENVELOPE_MARCHED:
       return Method::kEnvelopeMarched;
+    case v1::METHOD_GRID:
+      return Method::kGrid;
+    case v1::METHOD_AUTO:
+      return Method::kAuto;
     default:
       break;
   }
-  violations.add(field,
-                 method == v1::METHOD_UNSPECIFIED
-                     ? "must be given: reference, single_scattering, spp, spp_g, envelope or envelope_marched"
-                     : "unknown method " + std::to_string(method));
+  violations.add(
+      field,
+      method == v1::METHOD_UNSPECIFIED
+          ? "must be given: reference, single_scattering, spp, spp_g, envelope, envelope_marched, grid or auto"
+          : "unknown method " + std::to_string(method));
   return Method::kReference;
 }
 

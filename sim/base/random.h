@@ -24,7 +24,11 @@ enum class RandomPurpose : std::uint32_t {
   kSunRays,
   kFreeFlight,
   kCamera,
-  kTestScene
+  kTestScene,
+  kProbeDraw,
+  kProbePaths,
+  kProbeSun,
+  kProbeResampling
 };
 
 // One stream of numbers: (seed, element, purpose) names it, next() walks it. Cheap to make, copy and skip.

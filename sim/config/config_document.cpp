@@ -10,8 +10,11 @@ namespace sunfleck {
 namespace {
 
 std::string content_of(const std::filesystem::path& path) {
+  if (std::error_code failed; std::filesystem::is_directory(path, failed))
+    throw Error(ErrorKind::kNotFound, path.string(), "is a folder, not a file",
+                "give the path of a TOML file in it");
   std::ifstream in(path, std::ios::binary);
-  if (!in || std::filesystem::is_directory(path))
+  if (!in)
     throw Error(ErrorKind::kNotFound, path.string(), "there is no such file", "give the path of a TOML file");
   std::ostringstream content;
   content << in.rdbuf();

@@ -94,7 +94,8 @@ std::vector<std::string> CsvTable::split(std::string_view line, std::size_t numb
 
 void CsvTable::read_header(std::string_view line, std::size_t number) {
   const auto count = [&](char c) { return std::count(line.begin(), line.end(), c); };
-  separator_ = count(';') > count(',') ? ';' : ',';
+  for (const char candidate : {';', '\t'})
+    if (count(candidate) > count(separator_)) separator_ = candidate;
   header_ = {number, split(line, number)};
   for (std::string& name : header_.fields) name = lower(trimmed(name));
   for (std::size_t i = 0; i < header_.fields.size(); ++i) {

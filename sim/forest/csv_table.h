@@ -8,9 +8,9 @@
 
 namespace sunfleck {
 
-// Fields separated by , or ; (whichever the header uses), quoted with " ("" is a quote inside), lines ended
-// by LF, CRLF or CR, a byte order mark and blank lines and lines that start with # are skipped. Column names
-// do not mind case and surrounding blanks. A field does not span lines.
+// Fields separated by , or ; or tabs (whichever the header uses most), quoted with " ("" is a quote inside),
+// lines ended by LF, CRLF or CR, a byte order mark and blank lines and lines that start with # are skipped.
+// Column names do not mind case and surrounding blanks. A field does not span lines.
 class CsvTable {
  public:
   // Throws Error(kInvalidInput) at "name:line": no header, two columns of one name, a row of another length,
@@ -23,7 +23,8 @@ class CsvTable {
   // Same, but throws at the header's line with the columns there are.
   std::size_t required_column(const std::string& name) const;
   const std::string& field(std::size_t row, std::size_t column) const { return rows_[row].fields[column]; }
-  std::string where(std::size_t row, std::size_t column) const;  // "name:line, column x"
+  std::string where(std::size_t row) const { return at_line(rows_[row].line); }  // "name:line"
+  std::string where(std::size_t row, std::size_t column) const;                  // "name:line, column x"
 
   // A finite number within [lo, hi]; throws at where(row, column) with `expected`.
   double number(std::size_t row, std::size_t column, double lo, double hi, const std::string& expected) const;

@@ -97,7 +97,9 @@ struct WorldElement {
 };
 WorldElement world_element(const Forest& forest, std::size_t instance, std::size_t local);
 
-// Box around all instances (their prototypes' boxes turned and moved); empty for an empty forest.
+// Box that holds all instances; empty for an empty forest. For each, the box of its prototype turned and
+// moved, cut by the cylinder round its stem axis that holds the prototype: never too small, for round crowns
+// hardly too wide.
 Box forest_bounds(const Forest& forest);
 double forest_leaf_area_m2(const Forest& forest);
 

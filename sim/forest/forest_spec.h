@@ -23,6 +23,7 @@ struct InventoryTree {
   double x_m = 0, y_m = 0, dbh_cm = 0;
   std::optional<double> height_m, crown_base_m, widest_m, radius_n_m, radius_s_m, radius_e_m, radius_w_m,
       leaf_area_density_per_m;
+  std::string where;  // "file:line" of its row or the planting rule, for messages; empty if from neither
 };
 // Throws Error(kInvalidInput) with "file:line, column": missing column, not a number, negative, duplicate id,
 // crown base above the top. An empty table is an error.
@@ -40,8 +41,9 @@ struct PlantingRule {
 
 // How trees become geometry.
 enum class TreeSource {
-  kLsystem,  // the species' grammar: shared prototypes per species, size class and variant, scaled to the
-             // tree
+  kLsystem,  // the species' grammar. Trees of which only the DBH is known share prototypes per species, size
+             // class and variant, scaled to the tree; a tree with any other measure gets one of its own size
+             // (crown radius: the mean of the stated ones; hmax_m only keeps the tree taller than that)
   kCrown     // one prototype per tree: its own crown shape filled with leaves
 };
 
@@ -63,7 +65,10 @@ struct ForestSpec {
 // Reads the [forest] table of a scene file (see configs/scenes); inventory paths are relative to the file.
 ForestSpec read_forest_spec(const ConfigTable& table);
 
-// Grows it. Deterministic in (spec, species). Throws Error for unknown species, no trees, or limits.
-Forest grow_forest(const ForestSpec& spec, const SpeciesLibrary& species, const RunControl& control);
+// Grows it. Deterministic in (spec, species). Throws Error for unknown species, no trees, or limits. `notes`
+// receives one sentence for each thing that did not come out as asked: trees that found no place, heights
+// that were not met.
+Forest grow_forest(const ForestSpec& spec, const SpeciesLibrary& species, const RunControl& control,
+                   std::vector<std::string>* notes = nullptr);
 
 }  // namespace sunfleck

@@ -13,7 +13,8 @@ namespace sunfleck {
 
 namespace {
 
-std::vector<InventoryTree> trees_of(const ForestSpec& spec, const RunControl& control) {
+std::vector<InventoryTree> trees_of(const ForestSpec& spec, const RunControl& control,
+                                    std::vector<std::string>& notes) {
   if (!spec.inventory.empty() && !spec.planting.empty()) {
     throw_invalid("forest", "there are an inventory and planting rules", "give one of them");
   }
@@ -22,7 +23,7 @@ std::vector<InventoryTree> trees_of(const ForestSpec& spec, const RunControl& co
     throw_invalid("forest", "there are no trees", "give an inventory or planting rules");
   }
   PlantedTrees planted = plant_trees(spec, control);
-  for (const std::string& shortfall : planted.shortfalls) control.report(shortfall, 1.0);
+  notes.insert(notes.end(), planted.shortfalls.begin(), planted.shortfalls.end());
   return std::move(planted.trees);
 }
 
@@ -55,23 +56,26 @@ Vec3 stem_foot_m(const Terrain& terrain, const InventoryTree& tree) {
   return {tree.x_m, tree.y_m, terrain.height_at(tree.x_m, tree.y_m)};
 }
 
-Forest grow_forest(const ForestSpec& spec, const SpeciesLibrary& species, const RunControl& control) {
+Forest grow_forest(const ForestSpec& spec, const SpeciesLibrary& species, const RunControl& control,
+                   std::vector<std::string>* notes) {
+  std::vector<std::string> said;
   Forest forest;
   forest.name = spec.name;
   forest.terrain = spec.terrain;
   forest.period = spec.period;
   validate(forest);  // ground and period, before anything costs time
-  const std::vector<StandTree> stand = stand_of(trees_of(spec, control), species);
+  const std::vector<StandTree> stand = stand_of(trees_of(spec, control, said), species);
   forest.materials = materials_of(stand);
   switch (spec.trees) {
     case TreeSource::kCrown:
       grow_crowns(spec, stand, control, forest);
       break;
     case TreeSource::kLsystem:
-      grow_lsystems(spec, stand, control, forest);
+      grow_lsystems(spec, stand, control, forest, said);
       break;
   }
   validate(forest);
+  if (notes != nullptr) notes->insert(notes->end(), said.begin(), said.end());
   return forest;
 }
 

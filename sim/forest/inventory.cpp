@@ -96,6 +96,7 @@ InventoryTree tree_of_row(const CsvTable& table, std::size_t row) {
     if (!column || is_missing(table.field(row, *column))) continue;
     tree.*measure.member = table.number(row, *column, measure.lo, measure.hi, measure.expected);
   }
+  tree.where = table.where(row);
   check_heights(table, row, tree);
   check_crown_type(table, row);
   return tree;
@@ -127,6 +128,8 @@ std::vector<InventoryTree> read_inventory(const std::filesystem::path& path) {
   if (!std::filesystem::exists(path)) {
     throw Error(ErrorKind::kNotFound, path.string(), "there is no such file", "give an inventory as CSV");
   }
+  if (std::filesystem::is_directory(path))
+    throw_invalid(path.string(), "is a folder, not a file", "give the path of a CSV file");
   if (!std::filesystem::is_regular_file(path))
     throw_invalid(path.string(), "this is not a file", "give a CSV file");
   std::ifstream in(path, std::ios::binary);

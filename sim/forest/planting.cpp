@@ -18,7 +18,7 @@ namespace sunfleck {
 namespace {
 
 constexpr int kTriesPerTree = 4000;
-constexpr double kLeastDbhCm = 1.0;
+constexpr double kLeastDbhCm = 1.0, kMostDbhCm = 1000.0;
 
 // Looks at the stop token in one of 1024 rounds of a loop (each round costs a microsecond or so).
 void check_now_and_then(std::size_t round, const RunControl& control) {
@@ -60,13 +60,20 @@ class Neighbourhood {
   std::unordered_map<std::uint64_t, std::vector<Vec2>> cells_;
 };
 
-double draw_dbh_cm(const PlantingRule& rule, RandomStream& random) {
+double draw_dbh_cm(const PlantingRule& rule, const std::string& where, RandomStream& random) {
   for (int attempt = 0; attempt < 1000; ++attempt) {
     const double dbh_cm = rule.dbh_mean_cm + rule.dbh_sd_cm * random.normal();
+    if (dbh_cm > kMostDbhCm)
+      throw_invalid(where + ".dbh_sd_cm",
+                    std::to_string(rule.dbh_sd_cm) + " round a mean of " + std::to_string(rule.dbh_mean_cm) +
+                        " gives a tree of " + std::to_string(dbh_cm) + " cm",
+                    "a spread that keeps diameters under 1000 cm, such as a fifth of the mean");
     if (dbh_cm >= kLeastDbhCm) return dbh_cm;
   }
   return kLeastDbhCm;
 }
+
+std::string rule_label(std::size_t index) { return "forest.planting[" + std::to_string(index) + "]"; }
 
 struct Plot {
   double width_m, depth_m;
@@ -136,9 +143,9 @@ void check_rule(const PlantingRule& rule, const Plot& plot, const std::string& w
   const auto within = [](double value, double lo, double hi) { return value >= lo && value <= hi; };
   require(!rule.species.empty(), where + ".species", "is empty", "name a species");
   require(rule.count > 0, where + ".count", "is " + std::to_string(rule.count), "1 or more trees");
-  require(within(rule.dbh_mean_cm, kLeastDbhCm, 1000), where + ".dbh_mean_cm",
+  require(within(rule.dbh_mean_cm, kLeastDbhCm, kMostDbhCm), where + ".dbh_mean_cm",
           "is " + std::to_string(rule.dbh_mean_cm), "1 to 1000 cm");
-  require(within(rule.dbh_sd_cm, 0, 1000), where + ".dbh_sd_cm", "is " + std::to_string(rule.dbh_sd_cm),
+  require(within(rule.dbh_sd_cm, 0, kMostDbhCm), where + ".dbh_sd_cm", "is " + std::to_string(rule.dbh_sd_cm),
           "0 to 1000 cm");
   if (rule.pattern == PlantingPattern::kRandom) return;
   const double least_m = std::max(plot.width_m, plot.depth_m) * 1e-6;
@@ -156,7 +163,7 @@ void check_planting(const ForestSpec& spec, const Plot& plot) {
   check_plot(plot);
   std::size_t total = 0;
   for (std::size_t i = 0; i < spec.planting.size(); ++i) {
-    check_rule(spec.planting[i], plot, "forest.planting[" + std::to_string(i) + "]");
+    check_rule(spec.planting[i], plot, rule_label(i));
     total += static_cast<std::size_t>(spec.planting[i].count);
   }
   if (total <= kMostPlantedTrees) return;
@@ -176,12 +183,14 @@ void plant_rule(const ForestSpec& spec, std::size_t index, const RunControl& con
     tree.species = rule.species;
     tree.x_m = place.x;
     tree.y_m = place.y;
-    tree.dbh_cm = draw_dbh_cm(rule, size);
+    tree.dbh_cm = draw_dbh_cm(rule, rule_label(index), size);
+    tree.where = rule_label(index);
     planted.trees.push_back(tree);
   }
   if (places.size() == static_cast<std::size_t>(rule.count)) return;
-  planted.shortfalls.push_back("planting: " + std::to_string(places.size()) + " of " +
-                               std::to_string(rule.count) + " " + rule.species + " fit");
+  planted.shortfalls.push_back(rule_label(index) + ": " + std::to_string(places.size()) + " of " +
+                               std::to_string(rule.count) + " " + rule.species +
+                               " fit; a smaller spacing_m or a larger plot holds more");
 }
 
 }  // namespace

@@ -17,9 +17,11 @@ struct StandTree {
 void grow_crowns(const ForestSpec& spec, const std::vector<StandTree>& stand, const RunControl& control,
                  Forest& forest);
 
-// Shared prototypes by the species' grammar. Throws for a species without grammar.
+// Prototypes by the species' grammar: shared ones for trees known by their DBH only, one for each measured
+// tree. Throws for a species without grammar. Adds to `notes` how many trees are not as tall as they should
+// be.
 void grow_lsystems(const ForestSpec& spec, const std::vector<StandTree>& stand, const RunControl& control,
-                   Forest& forest);
+                   Forest& forest, std::vector<std::string>& notes);
 
 // Where a tree stands: on the terrain.
 Vec3 stem_foot_m(const Terrain& terrain, const InventoryTree& tree);

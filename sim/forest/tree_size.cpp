@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kLeastRadiusM = 0.01;
 constexpr double kWidestFraction = 1.0 / 3.0;
+constexpr double kLeastBaseShare = 0.01;  // grammars need a stem below the crown
 
 void require(bool right, const InventoryTree& tree, const std::string& what, const std::string& remedy) {
   if (!right) throw_invalid(tree_label(tree), what, remedy);
@@ -47,7 +48,8 @@ std::array<double, 4> radii_nesw_m(const InventoryTree& tree, const Species& spe
 }  // namespace
 
 std::string tree_label(const InventoryTree& tree) {
-  return "tree " + std::to_string(tree.id.value) + " (" + tree.species + ")";
+  return (tree.where.empty() ? "" : tree.where + ": ") + "tree " + std::to_string(tree.id.value) + " (" +
+         tree.species + ")";
 }
 
 void validate(const InventoryTree& tree) {
@@ -92,6 +94,19 @@ double tree_leaf_area_m2(const InventoryTree& tree, const Species& species, cons
   require(area_m2 > 0 && std::isfinite(area_m2), tree, "it has no foliage area",
           "crown_lad above 0, or leave it out; remove trees without leaves");
   return area_m2;
+}
+
+bool is_measured(const InventoryTree& tree) {
+  return tree.height_m || tree.crown_base_m || tree.widest_m || tree.radius_n_m || tree.radius_s_m ||
+         tree.radius_e_m || tree.radius_w_m || tree.leaf_area_density_per_m;
+}
+
+TreeSize tree_size(const InventoryTree& tree, const Species& species) {
+  const CrownShape crown = tree_crown(tree, species);
+  double sum_m = 0;
+  for (const double radius_m : crown.radius_nesw_m) sum_m += radius_m;
+  return {crown.dbh_m, crown.height_m, std::max(crown.base_m, kLeastBaseShare * crown.height_m), 0.25 * sum_m,
+          tree_leaf_area_m2(tree, species, crown)};
 }
 
 }  // namespace sunfleck

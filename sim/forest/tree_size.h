@@ -9,7 +9,7 @@
 
 namespace sunfleck {
 
-// "tree 209 (Quercus robur)", for error messages.
+// "trees.csv:12: tree 209 (Quercus robur)", for error messages; without the row if it came from no file.
 std::string tree_label(const InventoryTree& tree);
 
 // Throws Error(kInvalidInput) naming the tree if a measure is not finite or out of range (rows can come from
@@ -25,5 +25,12 @@ CrownShape tree_crown(const InventoryTree& tree, const Species& species);
 
 // Leaf area density times crown volume if the density is known, else by allometry; throws if there is none.
 double tree_leaf_area_m2(const InventoryTree& tree, const Species& species, const CrownShape& crown);
+
+// True if the row states more of the tree's size than its DBH.
+bool is_measured(const InventoryTree& tree);
+
+// The size of a measured tree for a grammar: crown radius is the mean of the four; a crown that reaches the
+// ground begins at a hundredth of the height.
+TreeSize tree_size(const InventoryTree& tree, const Species& species);
 
 }  // namespace sunfleck

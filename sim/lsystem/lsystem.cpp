@@ -26,6 +26,8 @@ Grammar Grammar::parse(std::string_view text, std::string source_name,
 }
 
 Grammar Grammar::load(const std::filesystem::path& path, const std::map<std::string, double>& constants) {
+  if (std::error_code failed; std::filesystem::is_directory(path, failed))
+    throw Error(ErrorKind::kNotFound, path.string(), "is a folder, not a file", "a grammar file (*.lsys)");
   std::ifstream file(path);
   if (!file) throw Error(ErrorKind::kNotFound, path.string(), "cannot be read", "a grammar file (*.lsys)");
   std::ostringstream text;

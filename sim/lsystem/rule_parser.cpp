@@ -170,6 +170,14 @@ void RuleParser::check_rule(const Rule& rule, RuleKind kind) {
     cursor_.fail("a rule with both << and >>", "one of them: a string is produced in one direction");
 }
 
+// A weight that is a constant is checked here, so that also rules that never fit are right; others when used.
+void RuleParser::parse_weight(Rule& rule) {
+  rule.weight = parse_expression(cursor_, scope_);
+  if (rule.weight.size() != 1 || rule.weight.front().op != Op::kConstant || rule.weight.front().value >= 0)
+    return;
+  cursor_.fail("a negative weight (or not a number)", "a chance in proportion to others: 0 or more");
+}
+
 Rule RuleParser::parse_rule(int line, RuleKind kind) {
   Rule rule;
   rule.line = line;
@@ -180,7 +188,7 @@ Rule RuleParser::parse_rule(int line, RuleKind kind) {
     cursor_.fail("a timed rule without a terminal age", "`predecessor : until age --> successor`");
   cursor_.expect("-->", "predecessor : condition --> successor");
   parse_successor(rule);
-  if (cursor_.accept(":")) rule.weight = parse_expression(cursor_, scope_);
+  if (cursor_.accept(":")) parse_weight(rule);
   cursor_.skip_blanks();
   if (!cursor_.at_end()) cursor_.fail("text after the end of the rule", "nothing more");
   check_rule(rule, kind);

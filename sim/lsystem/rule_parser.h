@@ -22,6 +22,7 @@ class RuleParser {
   Rule parse_rule(int line, RuleKind kind);
   // The text from the cursor to its end as modules whose parameters are expressions (an axiom, a successor).
   void parse_successor(Rule& rule);
+  void parse_weight(Rule& rule);
 
  private:
   std::uint16_t parse_symbol();

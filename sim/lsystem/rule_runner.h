@@ -78,7 +78,7 @@ const Rule* RuleRunner::choose(const RuleTable& table, std::uint16_t symbol,
     if ((!weighted.empty() && rule.weight.empty()) || !fits(rule)) continue;
     if (rule.weight.empty()) return &rule;
     const double weight = number(rule.weight, slots, random);
-    if (!(weight >= 0)) throw EvaluationFault{"a negative weight"};
+    if (!(weight >= 0)) throw EvaluationFault{"a negative weight (or not a number)"};
     weighted.emplace_back(&rule, total += weight);
   }
   if (weighted.empty()) return nullptr;

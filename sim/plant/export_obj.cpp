@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <span>
 
+#include "sim/base/pending_file.h"
 #include "sim/plant/element_faces.h"
 #include "sim/plant/make_prototype.h"
-#include "sim/base/pending_file.h"
 
 namespace sunfleck {
 namespace {

@@ -11,16 +11,6 @@ namespace {
 
 constexpr std::uint64_t kFoliageSeed = 0x666F6C69;  // apart from the seeds of derivation steps
 
-std::vector<std::size_t> chosen_organs(std::size_t count, double share, std::uint64_t seed) {
-  std::vector<std::size_t> chosen;
-  const std::uint64_t foliage_seed = mix_seed(seed, kFoliageSeed);
-  for (std::size_t i = 0; i < count; ++i)
-    if (share >= 1 || RandomStream(foliage_seed, i, RandomPurpose::kLsystem).uniform() < share)
-      chosen.push_back(i);
-  if (chosen.empty()) chosen.push_back(0);
-  return chosen;
-}
-
 FoliageElement element_at(const lsystem::TurtleState& turtle, const FoliageTemplate& foliage,
                           double area_m2) {
   const double scale = std::sqrt(area_m2 / template_area_m2(foliage));
@@ -58,13 +48,24 @@ double template_area_m2(const FoliageTemplate& foliage) {
                                             : foliage.shoot_area_m2();
 }
 
+std::vector<std::size_t> choose_organs(std::size_t organs, const FoliageTemplate& foliage,
+                                       double leaf_area_m2, double detail, std::uint64_t seed) {
+  SUNFLECK_EXPECTS(organs > 0 && leaf_area_m2 > 0);
+  const auto available = static_cast<double>(organs);
+  const double share = detail * std::min(available, leaf_area_m2 / template_area_m2(foliage)) / available;
+  const std::uint64_t foliage_seed = mix_seed(seed, kFoliageSeed);
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = 0; i < organs; ++i)
+    if (share >= 1 || RandomStream(foliage_seed, i, RandomPurpose::kLsystem).uniform() < share)
+      chosen.push_back(i);
+  if (chosen.empty()) chosen.push_back(0);
+  return chosen;
+}
+
 std::vector<FoliageElement> foliage_of(const std::vector<lsystem::Organ>& organs,
-                                       const FoliageTemplate& foliage, double leaf_area_m2, double detail,
-                                       std::uint64_t seed) {
-  SUNFLECK_EXPECTS(!organs.empty() && leaf_area_m2 > 0);
-  const auto available = static_cast<double>(organs.size());
-  const double wanted = detail * std::min(available, leaf_area_m2 / template_area_m2(foliage));
-  const std::vector<std::size_t> chosen = chosen_organs(organs.size(), wanted / available, seed);
+                                       std::span<const std::size_t> chosen, const FoliageTemplate& foliage,
+                                       double leaf_area_m2) {
+  SUNFLECK_EXPECTS(!chosen.empty() && leaf_area_m2 > 0);
   const double area_m2 = leaf_area_m2 / static_cast<double>(chosen.size());
   std::vector<FoliageElement> elements;
   elements.reserve(chosen.size());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "sim/lsystem/lsystem.h"
@@ -19,11 +20,15 @@ FoliageElement shoot_element(const lsystem::TurtleState& turtle, double length_m
 // One-sided area of one element of the species' template.
 double template_area_m2(const FoliageTemplate& foliage);
 
-// Elements of the template at a random share of the organs, whose areas sum to leaf_area_m2. As many are kept
-// as the template's size needs (all organs if those are fewer), times `detail`; they are scaled in all
+// Organs (indexes, ascending) that a tree of this leaf area keeps, drawn at random: as many as the template's
+// size needs (all if those are fewer), times `detail`; at least one.
+std::vector<std::size_t> choose_organs(std::size_t organs, const FoliageTemplate& foliage,
+                                       double leaf_area_m2, double detail, std::uint64_t seed);
+
+// Elements of the template at the chosen organs, whose areas sum to leaf_area_m2. They are scaled in all
 // directions by the same factor, so shoots keep their silhouette to area ratio.
 std::vector<FoliageElement> foliage_of(const std::vector<lsystem::Organ>& organs,
-                                       const FoliageTemplate& foliage, double leaf_area_m2, double detail,
-                                       std::uint64_t seed);
+                                       std::span<const std::size_t> chosen, const FoliageTemplate& foliage,
+                                       double leaf_area_m2);
 
 }  // namespace sunfleck

@@ -36,6 +36,16 @@ std::map<std::string, double> grammar_constants(const Species& species, const Tr
           {"ELEMENT_LENGTH", leaf ? species.foliage.leaf_length_m : species.foliage.shoot_length_m}};
 }
 
+// Wood of the drawing without twigs that lost all their organs; as thick as it is with all of them.
+std::vector<WoodSegment> wood_below(const lsystem::Drawing& drawing, std::span<const std::size_t> organs) {
+  const std::vector<WoodSegment> all = piped_wood(drawing, kPipeExponent, kLivingShare);
+  const std::vector<bool> carries = carrying_segments(drawing, organs);
+  std::vector<WoodSegment> wood;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (carries[i]) wood.push_back(all[i]);
+  return wood;
+}
+
 }  // namespace
 
 Prototype grow_prototype(const Species& species, const TreeSize& size, std::uint64_t seed, double detail,
@@ -55,8 +65,9 @@ Prototype grow_prototype(const Species& species, const TreeSize& size, std::uint
   Prototype tree;
   tree.name = species.latin;
   tree.materials = {species.material.name};
-  tree.foliage = foliage_of(drawing.organs, species.foliage, size.leaf_area_m2, detail, seed);
-  tree.wood = piped_wood(drawing, kPipeExponent);
+  const auto kept = choose_organs(drawing.organs.size(), species.foliage, size.leaf_area_m2, detail, seed);
+  tree.foliage = foliage_of(drawing.organs, kept, species.foliage, size.leaf_area_m2);
+  tree.wood = wood_below(drawing, kept);
   scale_wood_to_dbh(tree, size.dbh_m);
   reshape_to_size(tree, size);
   scale_wood_to_dbh(tree, size.dbh_m);  // the reshaped stem has another segment at 1.3 m

@@ -14,6 +14,14 @@ double thickest_diameter(const Prototype& prototype) {
   return diameter;
 }
 
+void thicken_by_disused_pipes(std::vector<double>& radius, double exponent, double living_share) {
+  const double foot = radius.empty() ? 1 : *std::max_element(radius.begin(), radius.end());
+  for (double& r : radius) {
+    const double share_of_pipes = std::pow(r / foot, exponent);
+    r *= std::sqrt(living_share + (1 - living_share) * share_of_pipes);
+  }
+}
+
 }  // namespace
 
 std::vector<double> pipe_radii(const lsystem::Drawing& drawing, double exponent) {
@@ -32,8 +40,10 @@ std::vector<double> pipe_radii(const lsystem::Drawing& drawing, double exponent)
   return pipes;
 }
 
-std::vector<WoodSegment> piped_wood(const lsystem::Drawing& drawing, double exponent) {
-  const std::vector<double> radius = pipe_radii(drawing, exponent);
+std::vector<WoodSegment> piped_wood(const lsystem::Drawing& drawing, double exponent, double living_share) {
+  SUNFLECK_EXPECTS(living_share > 0 && living_share <= 1);
+  std::vector<double> radius = pipe_radii(drawing, exponent);
+  thicken_by_disused_pipes(radius, exponent, living_share);
   std::vector<double> thickest_child(radius.size(), 0);
   for (std::size_t i = 0; i < radius.size(); ++i)
     if (const std::int32_t parent = drawing.segments[i].parent; parent >= 0)
@@ -47,6 +57,20 @@ std::vector<WoodSegment> piped_wood(const lsystem::Drawing& drawing, double expo
                     static_cast<float>(radius[i]), static_cast<float>(narrowed), 0});
   }
   return wood;
+}
+
+std::vector<bool> carrying_segments(const lsystem::Drawing& drawing, std::span<const std::size_t> organs) {
+  std::vector<bool> carries(drawing.segments.size(), false);
+  bool any = false;
+  for (const std::size_t i : organs) {
+    if (drawing.organs[i].segment < 0) continue;
+    carries[static_cast<std::size_t>(drawing.organs[i].segment)] = any = true;
+  }
+  if (!any) return std::vector<bool>(carries.size(), true);
+  for (std::size_t i = carries.size(); i-- > 0;)
+    if (const std::int32_t parent = drawing.segments[i].parent; carries[i] && parent >= 0)
+      carries[static_cast<std::size_t>(parent)] = true;
+  return carries;
 }
 
 void scale_wood_to_dbh(Prototype& prototype, double dbh_m) {

@@ -22,8 +22,9 @@ struct TreeSize {
 TreeSize expected_size(const Species& species, double dbh_cm);
 
 // Grows the species' grammar with the size as constants, turns internodes into wood by the pipe model
-// (r_parent^e = sum r_child^e) scaled to the DBH, and organs into leaves or shoots. `detail` in (0, 1]: the
-// share of foliage elements kept (kept ones enlarged so that the leaf area stays).
+// (cross-section kept at forks, disused pipes in the stem) scaled to the DBH, and organs into leaves or
+// shoots. `detail` in (0, 1]: the share of foliage elements kept (kept ones enlarged so that the leaf area
+// stays; wood that carries none of them is left out).
 Prototype grow_prototype(const Species& species, const TreeSize& size, std::uint64_t seed, double detail,
                          const RunControl& control = {});
 

@@ -73,6 +73,8 @@ double element_geometric_area(const FoliageElement& element);
 // Box that holds the element with all its extent.
 Box element_bounds(const FoliageElement& element);
 Box prototype_bounds(const Prototype& prototype);
+// Radius of a cylinder round the z axis that holds everything, a millionth wider for the rounding of floats.
+double prototype_reach_m(const Prototype& prototype);
 double leaf_area_m2(const Prototype& prototype);
 TreeMeasures measure(const Prototype& prototype);
 

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "sim/base/error.h"
 #include "sim/base/vec.h"
@@ -27,6 +28,15 @@ std::vector<std::string> names_of(const Species& species) {
   names.push_back(species.latin);
   for (std::string& name : names) name = lower_case(name);
   return names;
+}
+
+// "Fagus sylvatica (beech, fagus, fasy)": every name once.
+std::string listed(const Species& species) {
+  std::string others;
+  std::set<std::string> said{lower_case(species.latin)};
+  for (const std::string& name : names_of(species))
+    if (said.insert(name).second) others += (others.empty() ? " (" : ", ") + name;
+  return species.latin + others + (others.empty() ? "" : ")");
 }
 
 std::vector<std::filesystem::path> toml_files(const std::filesystem::path& folder) {
@@ -94,8 +104,7 @@ const Species& SpeciesLibrary::find(const std::string& name, const std::string& 
     if (std::find(names.begin(), names.end(), wanted) != names.end()) return species;
   }
   std::string known;
-  for (const Species& species : species_)
-    for (const std::string& each : names_of(species)) known += (known.empty() ? "" : ", ") + each;
+  for (const Species& species : species_) known += (known.empty() ? "" : ", ") + listed(species);
   throw_invalid(where, "unknown species \"" + name + "\"", "use one of " + known + "; or add a species file");
 }
 

@@ -21,7 +21,10 @@ struct GzCloser {
 using GzHandle = std::unique_ptr<gzFile_s, GzCloser>;
 
 GzHandle open_file(const std::filesystem::path& path) {
-  GzHandle file(std::filesystem::is_directory(path) ? nullptr : gzopen(path.c_str(), "rb"));
+  if (std::error_code failed; std::filesystem::is_directory(path, failed))
+    throw Error(ErrorKind::kNotFound, path.string(), "is a folder, not a file",
+                "give the path of a file in it");
+  GzHandle file(gzopen(path.c_str(), "rb"));
   if (!file)
     throw Error(ErrorKind::kNotFound, path.string(), "there is no such readable file", "check the path");
   gzbuffer(file.get(), 1u << 18);

@@ -133,7 +133,8 @@ TEST(CommandLine, ImportsAndExportsAPrototype) {
 
 TEST(CommandLine, TellsOneClearErrorAndLeavesNothingBehind) {
   const std::string out = (test::scratch_dir() / "never.vdb").string(),
-                    nc = (test::scratch_dir() / "never.nc").string();
+                    nc = (test::scratch_dir() / "never.nc").string(),
+                    png = (test::scratch_dir() / "never.png").string();
   const std::string forest = stand().forest.string(), scene = stand().scene.string();
   const auto spoiled = [&](const std::string& name, const std::string& from, const std::string& to) {
     std::string text = kScene;
@@ -169,16 +170,31 @@ TEST(CommandLine, TellsOneClearErrorAndLeavesNothingBehind) {
            nc,
        "s6.toml:10"},
       {"light " + forest + " --scene " + spoiled("s7.toml", "\"PAR\"", "\"UV\"") + " -o " + nc, "bands.UV"},
-      {"render " + forest + " --light-map nowhere.nc --scene " + scene + " --png " + out, "nowhere.nc"},
-      {"render " + forest + " --light-map " + scene + " --scene " + scene + " --png " + out, "scene.toml"},
+      {"render " + forest + " --light-map nowhere.nc --scene " + scene + " --png " + png, "nowhere.nc"},
+      {"render " + forest + " --light-map " + scene + " --scene " + scene + " --png " + png, "scene.toml"},
       {"render " + forest + " --light-map " + stand().map.string() + " --scene " +
-           spoiled("s8.toml", "width_px = 64", "width_px = 0") + " --png " + out,
+           spoiled("s8.toml", "width_px = 64", "width_px = 0") + " --png " + png,
        "s8.toml"},
       {"info nowhere.vdb", "nowhere.vdb"},
       {"import nowhere.txt -o " + out, "nowhere.txt"},
       {"import " + write_file("bad.txt", "0.1 0 0 x 0 0 1\n").string() + " -o " + out, "bad.txt:1"},
       {"export " + forest + " --prototype 99 -o " + out, "0 to 2"},
       {"bench --scenes moon", "sphere"},
+      {"grow " + scene + " --print", "--lsystem"},
+      {"grow " + scene + " -o /nonexistent/a.vdb", "there is no folder"},
+      {"light " + forest + " --scene " + scene + " -o /nonexistent/a.nc", "there is no folder"},
+      {"light " + forest + " --scene " + scene + " -o " + nc + " --csv a.txt", ".csv"},
+      {"light " + forest + " --scene " + scene + " --csv a.csv --tree-csv a.csv", "twice"},
+      {"light " + forest + " --scene " + scene + " --threads -1 -o " + nc, "--threads"},
+      {"light " + forest + " --scene " +
+           spoiled("s9.toml", "[light.reference]",
+                   "[[light.optics]]\nmaterial = \"moon\"\nband = \"PAR\"\nleaf_reflectance = "
+                   "0\nleaf_transmittance = 0\n[light.reference]") +
+           " -o " + nc,
+       "optics.moon"},
+      {"render " + forest + " --light-map " + stand().map.string() + " --scene " +
+           spoiled("s10.toml", "zenith_deg = 40", "zenith_deg = 50") + " --png " + png,
+       "sun_zenith_deg"},
       {"client info --address unix:/nowhere.sock", "/nowhere.sock"},
   };
   for (const Bad& bad : table) {
@@ -192,6 +208,7 @@ TEST(CommandLine, TellsOneClearErrorAndLeavesNothingBehind) {
   }
   EXPECT_FALSE(fs::exists(out));
   EXPECT_FALSE(fs::exists(nc));
+  EXPECT_FALSE(fs::exists(png));
 }
 
 TEST(CommandLine, EveryShippedSceneGrows) {

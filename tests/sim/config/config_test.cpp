@@ -161,6 +161,16 @@ TEST_P(ConfigMistakes, AreRefusedWithPlaceAndRemedy) {
 }
 INSTANTIATE_TEST_SUITE_P(Each, ConfigMistakes, testing::ValuesIn(kMistakes));
 
+TEST(ConfigTable, AFolderIsSaidToBeOne) {
+  try {
+    ConfigTable::from_file(test::scratch_dir());
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.where(), test::scratch_dir().string());
+    EXPECT_EQ(error.problem(), "is a folder, not a file");
+  }
+}
+
 TEST(ConfigTable, MissingFileOrFolderIsNotFound) {
   for (const auto& path : {test::scratch_dir() / "absent.toml", test::scratch_dir()}) {
     try {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "sim/base/parallel.h"
 #include "sim/forest/forest_spec.h"
@@ -172,13 +173,16 @@ TEST(GrowForest, PlantedTreesGrowAndShortfallsAreSaid) {
   ForestSpec spec = crowns_of({}, 10);
   spec.planting = {{"spruce", 500, PlantingPattern::kPoissonDisc, 4, 25, 5}};
   spec.plot_width_m = spec.plot_depth_m = 20;
-  std::vector<std::string> stages;
+  std::set<std::string> stages;
+  std::vector<std::string> notes;
   const Forest forest = grow_forest(
-      spec, shipped_species(), {{}, [&](std::string_view stage, double) { stages.emplace_back(stage); }});
+      spec, shipped_species(), {{}, [&](std::string_view stage, double) { stages.emplace(stage); }}, &notes);
   EXPECT_GT(forest.instances.size(), 10U);
-  ASSERT_FALSE(stages.empty());
-  EXPECT_NE(stages.front().find("of 500 spruce fit"), std::string::npos) << stages.front();
-  EXPECT_EQ(stages.back(), "growing trees");
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_TRUE(notes[0].starts_with("forest.planting[0]: " + std::to_string(forest.instances.size()) +
+                                   " of 500 spruce fit"))
+      << notes[0];
+  EXPECT_EQ(stages, std::set<std::string>{"growing trees"});  // a note is no stage
 }
 
 TEST(GrowForest, StopsInTheMiddle) {
@@ -203,6 +207,27 @@ TEST(GrowForest, StopsInTheMiddle) {
 }
 
 // ---- bad input
+
+TEST(GrowForest, MessagesNameTheRowAndEachSpeciesOnce) {
+  ForestSpec spec = crowns_of(parse_inventory("id_tree,species,x,y,dbh_cm\n5,unicorn,0,0,20\n", "a.csv"));
+  const SpeciesLibrary library = shipped_species();
+  try {
+    grow_forest(spec, library, {});
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.where(), "a.csv:2: tree 5 (unicorn)");
+    for (const Species& species : library.all()) {
+      const std::size_t first = error.remedy().find(species.latin);
+      EXPECT_NE(first, std::string::npos) << error.remedy();
+      EXPECT_EQ(error.remedy().find(species.latin, first + 1), std::string::npos) << error.remedy();
+    }
+  }
+  spec.inventory.clear();
+  spec.planting = {{"unicorn", 3, PlantingPattern::kRandom, 4, 25, 5}};
+  spec.plot_width_m = spec.plot_depth_m = 20;
+  test::expect_refusal([&] { grow_forest(spec, library, {}); }, ErrorKind::kInvalidInput,
+                       "forest.planting[0]: tree 1", "unicorn");
+}
 
 TEST(GrowForest, BadSpecsAreRefused) {
   const double nan = std::nan("");

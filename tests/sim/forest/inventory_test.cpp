@@ -52,6 +52,7 @@ TEST(Inventory, EverySpellingOfACsv) {
       "\xEF\xBB\xBFid_tree;species;x;y;dbh_cm;h_m\n1;beech;0;1;20;NA\n\n2;oak, red;3;4;30.5;12\n\n",
       "# two trees\nID_TREE; Species ;X;Y;DBH_cm;H_m\r1 ; beech ; 0 ; 1 ; 20 ; \r2;\"oak, red\" "
       ";3;4;3.05e1;12\r",
+      "id_tree\tspecies\tx\ty\tdbh_cm\th_m\n1\tbeech\t0\t1\t20\t\n2\toak, red\t3\t4\t30.5\t12\n",
       "\"id_tree\",\"species\",\"x\",\"y\",\"dbh_cm\",\"h_m\"\n\"1\",\"beech\",\"0\",\"1\",\"20\",\"NA\"\n"
       "\"2\",\"oak, red\",\"3\",\"4\",\"30.5\",\"12\"\n"};
   for (const std::string& csv : spellings) {
@@ -63,6 +64,11 @@ TEST(Inventory, EverySpellingOfACsv) {
     EXPECT_EQ(trees[1].dbh_cm, 30.5) << csv;
     EXPECT_EQ(trees[1].height_m, 12.0) << csv;
   }
+}
+
+TEST(Inventory, RowsRememberTheirLine) {
+  const auto trees = parse_inventory("# a comment\nid_tree,species,x,y,dbh_cm\n\n7,beech,0,0,9\n", "t.csv");
+  EXPECT_EQ(trees[0].where, "t.csv:4");
 }
 
 TEST(Inventory, DoubledQuoteIsAQuote) {
@@ -130,7 +136,7 @@ TEST(Inventory, FilesThatAreNone) {
   test::expect_refusal([&] { read_inventory(folder / "absent.csv"); }, ErrorKind::kNotFound, "absent.csv",
                        "no such");
   test::expect_refusal([&] { read_inventory(folder); }, ErrorKind::kInvalidInput, folder.string(),
-                       "not a file");
+                       "is a folder, not a file");
 }
 
 // Number of trees and the sums that any other program gives for the columns (awk over the files).

@@ -111,6 +111,14 @@ TEST(Planting, NoDiameterUnderOneCentimetre) {
   for (const InventoryTree& tree : planted.trees) EXPECT_GE(tree.dbh_cm, 1.0);
 }
 
+// One in 3500 normal diameters lies 3.45 sd above the mean: 4000 of them round 310 with sd 200 hold one over
+// 1000 cm (seed 1), for which the rule is to blame, not a tree.
+TEST(Planting, ASpreadTooWideIsSaidByItsKey) {
+  const ForestSpec spec = plot_with({{"pine", 4000, PlantingPattern::kRandom, 0, 310, 200}});
+  test::expect_refusal([&] { plant_trees(spec, {}); }, ErrorKind::kInvalidInput,
+                       "forest.planting[0].dbh_sd_cm", "gives a tree of");
+}
+
 TEST(Planting, SeedDecidesAllOfIt) {
   ForestSpec spec = plot_with({{"beech", 50, PlantingPattern::kPoissonDisc, 3, 25, 5}});
   const auto first = plant_trees(spec, {}), again = plant_trees(spec, {});

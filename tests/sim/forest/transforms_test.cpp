@@ -101,6 +101,88 @@ TEST(Forest, BoundsHoldAllElementsAndAreaIsTheirSum) {
   EXPECT_NEAR(forest_leaf_area_m2(forest), area_m2, 1e-9 * area_m2);
 }
 
+// A prototype of all kinds of elements and wood, spread at random in a crown.
+Prototype random_prototype(RandomStream& random) {
+  Prototype prototype{"p", {"beech"}, {}, {}, {}, 0.2};
+  const auto within = [&](double r) { return static_cast<float>(random.uniform(-r, r)); };
+  for (int i = 0; i < 40; ++i) {
+    FoliageElement e;
+    e.centre_m = {within(3), within(1.5), within(4) + 9};
+    e.half_u_m = {within(0.3), within(0.3), within(0.3)};
+    e.half_v_m = {within(0.3), within(0.3), within(0.3)};
+    e.shape = static_cast<ElementShape>(i % 4);
+    if (e.shape == ElementShape::kDisc)
+      e.half_v_m = glm::length(e.half_u_m) * Vec3f(basis_around(glm::normalize(Vec3(e.half_u_m))).tangent);
+    e.area_m2 = 1;
+    prototype.foliage.push_back(e);
+    prototype.wood.push_back({{0, 0, within(1) + 1}, {within(3), within(3), 5}, 0.2F, 0.1F, 0});
+  }
+  return prototype;
+}
+
+// The prototype where the instance stands, in coordinates of the world.
+Prototype baked(const Instance& instance, Prototype prototype) {
+  const auto moved = [&](Vec3f& p) { p = Vec3f(world_from_tree(instance, p)); };
+  const auto turned = [&](Vec3f& v) {
+    v = Vec3f(static_cast<double>(instance.scale) * world_direction_from_tree(instance, v));
+  };
+  for (FoliageElement& e : prototype.foliage) {
+    moved(e.centre_m);
+    turned(e.half_u_m);
+    turned(e.half_v_m);
+  }
+  for (WoodSegment& s : prototype.wood) {
+    moved(s.from_m);
+    moved(s.to_m);
+    s.radius_from_m *= instance.scale;
+    s.radius_to_m *= instance.scale;
+  }
+  return prototype;
+}
+
+// Random prototypes, yaws, scales and places (seed 5): what is baked lies inside, to the rounding of floats
+// at 100 m (1e-5 m).
+TEST(Forest, BoundsHoldWhatIsBaked) {
+  RandomStream random(5, 0, RandomPurpose::kTestScene);
+  for (int round = 0; round < 300; ++round) {
+    Forest forest;
+    forest.prototypes.push_back(random_prototype(random));
+    const Vec3 foot{random.uniform(-90, 90), random.uniform(-90, 90), random.uniform(0, 9)};
+    const auto yaw = static_cast<float>(random.uniform(-7, 7)),
+               scale = static_cast<float>(random.uniform(0.5, 2));
+    forest.instances.push_back({foot, {0}, yaw, scale, {1}});
+    const Box bounds = forest_bounds(forest);
+    const Prototype world = baked(forest.instances[0], forest.prototypes[0]);
+    Box inner = prototype_bounds(world);
+    for (const FoliageElement& e : world.foliage) inner.include(element_bounds(e));
+    EXPECT_TRUE(glm::all(glm::greaterThanEqual(inner.lo, bounds.lo - 2e-5)) &&
+                glm::all(glm::lessThanEqual(inner.hi, bounds.hi + 2e-5)))
+        << round;
+  }
+}
+
+// A disc-shaped crown of 3 m radius made of 400 leaves of 5 cm half edge at its rim: at any yaw it is 6.1 m
+// wide at most, and its turned box would be up to 6.1 sqrt(2).
+TEST(Forest, BoundsOfATurnedRoundCrownAreTight) {
+  Forest forest;
+  forest.prototypes.push_back({"round", {"beech"}, {}, {}, {}, 0.2});
+  for (int i = 0; i < 400; ++i) {
+    const double a = 2 * kPi * i / 400;
+    const Vec3f out(std::cos(a), std::sin(a), 0), along(-out.y, out.x, 0);
+    forest.prototypes[0].foliage.push_back(
+        {3.0F * out + Vec3f(0, 0, 9), 0.05F * out, 0.05F * along, 0.01F, ElementShape::kParallelogram, 0, 0});
+  }
+  for (const float yaw : {0.0F, 0.3F, 0.785F, 2.0F}) {
+    forest.instances = {{{50, 60, 7}, {0}, yaw, 1.5F, {1}}};
+    const Vec3 size = forest_bounds(forest).size(),
+               exact = prototype_bounds(baked(forest.instances[0], forest.prototypes[0])).size();
+    for (int axis = 0; axis < 2; ++axis) {
+      EXPECT_GE(size[axis], exact[axis] - 1e-4) << yaw;
+      EXPECT_LE(size[axis], 1.03 * exact[axis]) << yaw;
+    }
+  }
+}
+
 // Falling 30 degrees towards east (azimuth 90): 10 m east is 10 tan 30 lower, north is level.
 TEST(Terrain, FallsTowardsItsAspect) {
   const Terrain terrain{100, kPi / 6, kPi / 2};

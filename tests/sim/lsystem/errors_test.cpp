@@ -1,6 +1,7 @@
 // Mistakes in grammars: every message says where, what and what would be right.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 
 #include "sim/base/error.h"
@@ -80,7 +81,16 @@ const Mistake kMistakes[] = {
     {"EndlessDecomposition", "symbols: A\naxiom: A\ndecomposition:\nA --> FA", 1, "bad.lsys:4",
      "deeper than 100 levels", ErrorKind::kLimitExceeded},
     {"ZeroWeights", "axiom: F\nF --> FF : 0", 1, "bad.lsys:2", "weights that sum to zero"},
-    {"NegativeWeight", "axiom: F\nF --> FF : -1", 1, "bad.lsys:2", "negative weight"},
+    {"NegativeWeight", "axiom: F\nF --> FF : -1", 0, "bad.lsys:2", "a negative weight"},
+    {"NegativeWeightOfARuleThatNeverFits", "axiom: F\nF --> FF\nF --> F : 2-3", 0, "bad.lsys:3",
+     "a negative weight (or not a number) at the end of `F --> F : 2-3`"},
+    {"NegativeWeightByParameter", "axiom: F(2)\nF(x) --> F(1) : 3\nF(x) --> F(3) : 1-x", 1, "bad.lsys:3",
+     "a negative weight (or not a number) while rewriting module 0 `F(2)` in step 0 in rule `F(x) --> F(3)"},
+    {"NegativeWeightInDecomposition", "symbols: A(1)\naxiom: A(1)\ndecomposition:\nA(x) --> F : -x", 1,
+     "bad.lsys:4", "a negative weight"},
+    {"NegativeWeightInInterpretation", "symbols: A(1)\naxiom: A(1)\ninterpretation:\nA(x) --> F : -x", 1,
+     "bad.lsys:4", "a negative weight"},
+    {"NoNumberAsWeight", "axiom: F\nF --> FF : 0/0", 1, "bad.lsys:2", "division by zero"},
     {"PolygonOpen", "axiom: {F", 0, "bad.lsys", "never closed"},
     {"PolygonEnd", "axiom: F}", 0, "bad.lsys", "outside a polygon"},
     {"DeepParentheses",
@@ -106,6 +116,31 @@ TEST(Constants, ReplaceDefinesAndNothingElse) {
   EXPECT_EQ(printed({{"A", 5}}), "F(15)");
   EXPECT_EQ(printed({{"B", 5}}), "F(5)");
   EXPECT_THROW(printed({{"C", 5}}), Error);
+}
+
+// Constants of callers may be anything, and a NaN compares with nothing.
+TEST(Weights, NanOfACallerIsRefused) {
+  EXPECT_THROW(Grammar::parse("#define W 1\naxiom: F\nF --> FF : W\n", "w", {{"W", std::nan("")}}), Error);
+}
+
+TEST(Weights, OfZeroAreNeverDrawn) {
+  const Grammar grammar = Grammar::parse("axiom: F\nF --> FF : 0\nF --> +F : 1\n", "w");
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    DeriveOptions options;
+    options.seed = seed;
+    options.steps = 1;
+    EXPECT_EQ(grammar.print(grammar.derive(options)), "+F");
+  }
+}
+
+TEST(Files, FoldersAreNone) {
+  try {
+    Grammar::load(test::scratch_dir());
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.where(), test::scratch_dir().string());
+    EXPECT_EQ(error.problem(), "is a folder, not a file");
+  }
 }
 
 TEST(Files, AbsentOnesAreNamed) {

@@ -75,7 +75,7 @@ TEST(LeafList, MistakesAreRefusedWithFileAndLine) {
   test::expect_refused([] { import_leaf_list("absent.txt", "leaf"); }, ErrorKind::kNotFound, "absent.txt",
                        "no such", "path");
   test::expect_refused([] { import_leaf_list(test::scratch_dir(), "leaf"); }, ErrorKind::kNotFound, "",
-                       "no such", "path");
+                       "is a folder", "path");
   test::expect_refused([] { import_leaf_list("absent.txt", ""); }, ErrorKind::kInvalidInput, "material",
                        "empty", "species");
 }

@@ -143,7 +143,7 @@ TEST(Species, EveryTableMustNameItsSource) {
 TEST(Species, LibraryRefusesUnknownNamesEmptyFoldersAndSharedNames) {
   const SpeciesLibrary library = shipped();
   test::expect_refused([&] { library.find("Ginkgo", "inv.csv:3, species"); }, ErrorKind::kInvalidInput,
-                       "inv.csv:3, species", "Ginkgo", "fagus sylvatica");
+                       "inv.csv:3, species", "Ginkgo", "Fagus sylvatica");
   test::expect_refused([] { SpeciesLibrary::load(test::scratch_dir() / "nowhere"); }, ErrorKind::kNotFound,
                        "nowhere", "folder", "configs/species");
   const auto folder = test::scratch_dir() / "twins";

@@ -1,0 +1,41 @@
+// One attempt of `auto`: a map, corrected or not, and what the probes say of it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lighting/plan/auto_correction.h"
+#include "lighting/plan/auto_options.h"
+#include "lighting/plan/auto_probe.h"
+
+namespace sunfleck {
+
+struct JudgedBand {
+  std::optional<Correction> correction;
+  ErrorSample sample;  // of the light with the correction; each probe by a fit without it
+};
+
+struct Attempt {
+  std::string name;
+  LightMap map;  // corrected, sums updated
+  std::vector<JudgedBand> bands;
+  double worst_error = 0;  // in the tolerance's measure, over the bands
+  bool tolerable = false;
+};
+
+struct Judge {
+  const Forest& forest;
+  const ForestIndex& index;
+  const OpticsTable& optics;
+  const ProbeSet& probes;
+  const AutoOptions& options;
+
+  // Finds the best correction of each band among `forms`, applies it and measures.
+  Attempt judge(std::string name, LightMap map, const std::vector<CorrectionForm>& forms) const;
+
+  // Relative RMS error of each band's diffuse light (corrected if that pays), in shares of the total mean:
+  // what would be left with exact direct light.
+  std::vector<double> error_of_diffuse(const LightMap& map) const;
+};
+
+}  // namespace sunfleck

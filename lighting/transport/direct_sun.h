@@ -1,0 +1,22 @@
+// Direct sunlight: one march of the leaf-area grid per element, ground cell and cell with wood.
+#pragma once
+
+#include "lighting/transport/leaf_scattering.h"
+#include "lighting/transport/transport_scene.h"
+
+namespace sunfleck::transport {
+
+// For a beam of 1 W m-2.
+struct DirectSun {
+  std::vector<FacePair> elements;      // irradiance
+  std::vector<float> sunlit_fraction;  // of elements
+  std::vector<float> ground;           // irradiance of ground cells
+  std::vector<float> wood;             // transmittance to cells with wood
+  double open_ground = 0;              // irradiance of the open ground
+};
+
+// `to_sun` is unit and above the horizon.
+DirectSun direct_sun(const TransportScene& scene, const Forest& forest, const Vec3& to_sun,
+                     const RunControl& control);
+
+}  // namespace sunfleck::transport

@@ -1,0 +1,93 @@
+// What leaves and wood of every cell take from the radiance there and give back as sources.
+//
+// A flat part gets on its two faces, with g its depth in the cell (cell_contents.h),
+//   E = pi sum Om_j g_j I_j / sum Om_j g_j   over the directions of the face's side,
+// and gives off radiosity B_front = r_f E_front + t_b E_back (and the other way round), adding g_j B / pi to
+// the source towards each direction: its own scattering kernel, exact for its angle. What it takes out of the
+// radiance and gives back balance exactly for r + t = 1, and even light stays even, on any set of directions.
+// The shade and light of the part itself in its own cell are taken out of I, see own_part(). The sources keep
+// g and not q: what a part's own depth takes from its own light is what g has more than q.
+// A shoot is a body of randomly turned needles that light each other; wood one of even brightness.
+#pragma once
+
+#include <span>
+
+#include "lighting/optics/optics.h"
+#include "lighting/transport/cell_contents.h"
+#include "lighting/transport/lanes.h"
+
+namespace sunfleck::transport {
+
+// Optics of a class in one band.
+struct LeafBand {
+  float reflectance_front = 0, reflectance_back = 0, transmittance_front = 0, transmittance_back = 0;
+  float albedo = 0;  // mean of the faces
+};
+std::vector<LeafBand> leaf_bands(const Forest& forest, const OpticsTable& optics, std::size_t band);
+// By wood area, 0 without wood.
+double mean_bark_reflectance(const Forest& forest, const OpticsTable& optics, std::size_t band);
+
+// Irradiance, W m-2, of both faces.
+struct FacePair {
+  float front = 0, back = 0;
+};
+// How much more light needles of a shoot get than comes from outside the shoot.
+inline float shoot_gain(float albedo, float escape) {
+  return 1.0f / std::max(1e-4f, 1.0f - albedo * (1.0f - escape));
+}
+
+// Light of one order of bounces, and of all so far. Wood: mean incident radiance per WoodCell.
+struct Orders {
+  std::vector<FacePair> last, total;
+  std::vector<float> wood_last, wood_total;
+};
+
+// Direct light: per element the irradiance of both faces, per WoodCell the sun's share.
+struct DirectLight {
+  std::span<const FacePair> elements;  // empty: none
+  std::span<const float> wood;
+  double beam_w_m2 = 0;
+};
+
+class LeafScattering {
+ public:
+  LeafScattering(const CellContents& contents, const DirectionLanes& lanes, std::size_t half,
+                 double cell_face_m2, std::vector<LeafBand> bands, double bark_reflectance);
+
+  // Takes light from `radiance` times `scale` and from `direct`, keeps it in `orders`, and writes the source
+  // function of what it gives back to `source` (may be the same memory); both [direction][cell]. Returns the
+  // power given back, W.
+  double next_order(std::span<const float> radiance, double scale, const DirectLight& direct, Orders& orders,
+                    std::span<float> source, const RunControl& control) const;
+
+  // Source function of all orders and `tail` times the last once more.
+  void total_source(const Orders& orders, double tail, std::span<float> source,
+                    const RunControl& control) const;
+
+  // Radiosity of every part, W m-2, for the same light.
+  std::vector<FacePair> total_radiosity(const Orders& orders, double tail, const RunControl& control) const;
+
+  // Power that wood takes in for mean incident radiance 1, W per W m-2 sr-1.
+  double wood_intake_m2_sr(std::size_t wood_cell) const;
+
+ private:
+  struct Cell;
+  FacePair face_light(const LeafPart& part, const Cell& cell, const Lanes& cosine, const Lanes& depth,
+                      double scale, const FacePair& sent, const DirectLight& direct) const;
+  FacePair radiosity(const LeafPart& part, const FacePair& light) const;
+  void part_depths(const LeafPart& part, Lanes& cosine, Lanes& depth) const;
+  double wood_order(std::size_t wood, Cell& cell, double scale, const DirectLight& direct,
+                    Orders& orders) const;
+  template <class PartVisit, class WoodVisit>
+  void for_each_cell(std::span<const float> radiance, std::span<float> source, const RunControl& control,
+                     const PartVisit& part_visit, const WoodVisit& wood_visit) const;
+
+  const CellContents& contents_;
+  const DirectionLanes& lanes_;
+  const std::size_t half_, cells_;
+  const double face_m2_;
+  const std::vector<LeafBand> bands_;
+  const float bark_reflectance_;
+};
+
+}  // namespace sunfleck::transport

@@ -1,0 +1,42 @@
+#include "server/apps/outputs.h"
+
+#include <unistd.h>
+
+#include <set>
+
+#include "sim/base/error.h"
+
+namespace sunfleck {
+namespace {
+
+namespace fs = std::filesystem;
+
+void check_place(const Output& o) {
+  const fs::path folder = o.path.has_parent_path() ? o.path.parent_path() : fs::path(".");
+  if (o.path.extension() != o.extension)
+    throw_invalid(o.option, "'" + o.path.string() + "' does not end in " + o.extension,
+                  o.option + " FILE" + o.extension);
+  if (fs::is_directory(o.path))
+    throw_invalid(o.option, o.path.string() + " is a folder", "the name of a file");
+  if (!fs::is_directory(folder))
+    throw_invalid(o.option, "there is no folder " + folder.string(), "an existing folder");
+  if (::access(folder.c_str(), W_OK) != 0)
+    throw_invalid(o.option, folder.string() + " may not be written to", "a folder of yours");
+}
+
+}  // namespace
+
+void check_outputs(const std::string& command, const std::vector<Output>& outputs) {
+  std::set<fs::path> names;
+  std::string options;
+  for (const Output& o : outputs) {
+    options += (options.empty() ? "" : " or ") + o.option + " FILE" + o.extension;
+    if (o.path.empty()) continue;
+    check_place(o);
+    if (!names.insert(fs::weakly_canonical(o.path)).second)
+      throw_invalid(o.option, o.path.string() + " is named twice", "a file of its own for each output");
+  }
+  if (names.empty()) throw_invalid(command, "nowhere to write", options);
+}
+
+}  // namespace sunfleck
