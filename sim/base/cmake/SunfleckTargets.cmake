@@ -32,7 +32,8 @@ function(sunfleck_test name)
   target_link_libraries(${name} PRIVATE sunfleck_flags test_support ${arg_LINKS} GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE SUNFLECK_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
   add_test(NAME ${name} COMMAND ${name})
-  set_tests_properties(${name} PROPERTIES TIMEOUT 900)
+  set_tests_properties(${name} PROPERTIES TIMEOUT 900
+    ENVIRONMENT "TSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/support/tsan_suppressions.txt")
 endfunction()
 
 # sunfleck_bench(name SOURCES a_bench.cpp ... LINKS target ...): one Google Benchmark program, never a test.
