@@ -147,7 +147,7 @@ void expect_crowns_as_measured(const ForestSpec& spec, const Forest& forest) {
 
 TEST(MeasuredStand, Cloture20) {
   const auto file = test::shared_data("stands/cloture20/trees.csv");
-  if (!file) GTEST_SKIP();
+  if (!file) GTEST_SKIP() << "measured stand is absent";
   const ForestSpec spec = crowns_of(read_inventory(*file), 1000);
   const Forest forest = grow_forest(spec, shipped_species(), {});
   EXPECT_EQ(forest.instances.size(), 112U);
@@ -158,7 +158,7 @@ TEST(MeasuredStand, Cloture20) {
 
 TEST(MeasuredStand, BechefaOnASlope) {
   const auto file = test::shared_data("stands/bechefa/trees.csv");
-  if (!file) GTEST_SKIP();
+  if (!file) GTEST_SKIP() << "measured stand is absent";
   ForestSpec spec = crowns_of(read_inventory(*file), 100);
   spec.terrain = {300, 0.2, 1.0};
   const Forest forest = grow_forest(spec, shipped_species(), {});

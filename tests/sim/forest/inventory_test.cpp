@@ -143,7 +143,7 @@ TEST(Inventory, FilesThatAreNone) {
 TEST(Inventory, MeasuredStands) {
   const auto cloture = test::shared_data("stands/cloture20/trees.csv");
   const auto bechefa = test::shared_data("stands/bechefa/trees.csv");
-  if (!cloture || !bechefa) GTEST_SKIP();
+  if (!cloture || !bechefa) GTEST_SKIP() << "measured stands are absent";
   EXPECT_EQ(read_inventory(*cloture).size(), 112U);
   const auto trees = read_inventory(*bechefa);
   EXPECT_EQ(trees.size(), 201U);

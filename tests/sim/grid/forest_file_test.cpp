@@ -186,7 +186,7 @@ std::pair<int, std::string> run_command(const std::string& command) {
 TEST(ForestFile, VdbPrintReadsIt) {
   if (run_command("command -v vdb_print").first != 0) {
     std::cerr << "\n*** NOT TESTED: vdb_print is absent (package libopenvdb-tools) ***\n\n";
-    GTEST_SKIP();
+    GTEST_SKIP() << "vdb_print is absent";
   }
   const auto path = test::scratch_dir() / "printed.vdb";
   save_forest(test::varied_forest(), path);
