@@ -1,7 +1,7 @@
 # Sourced by quickstart and check: installs the Debian packages that are not there yet.
 packages_build="cmake ninja-build ccache g++ pkg-config libopenvdb-dev libboost-dev libglm-dev libembree-dev libgrpc++-dev
   protobuf-compiler protobuf-compiler-grpc libprotobuf-dev libopenimageio-dev libtbb-dev libtomlplusplus-dev
-  libcli11-dev libspdlog-dev nlohmann-json3-dev libnetcdf-dev libssl-dev libnova-dev zlib1g-dev"
+  libcli11-dev libspdlog-dev nlohmann-json3-dev libnetcdf-dev libssl-dev libnova-dev zlib1g-dev gnuplot-nox"
 packages_test="libgtest-dev libbenchmark-dev libopenvdb-tools netcdf-bin"
 
 say() { printf '\n== %s\n' "$*"; }

@@ -54,15 +54,17 @@ struct ExportOptions {
 void run_export(const ExportOptions& options);
 
 struct BenchOptions {
-  std::string scenes = "all", bands = "all";
-  int elements = 40000;
+  std::string kind;  // error-vs-time, growth
+  std::string scenes = "quick", bands = "PAR,NIR", methods = "all";
   int reference_rays = 256;
+  std::size_t most_elements = 1'000'000;  // growth
   std::uint64_t seed = 1;
   int threads = 1;
   int repeats = 3;
-  std::filesystem::path csv, configs;
+  std::filesystem::path csv, plot, configs;
 };
-void run_bench(const BenchOptions& options, const RunControl& control);
+void run_bench_errors(const BenchOptions& options, const RunControl& control);
+void run_bench_growth(const BenchOptions& options, const RunControl& control);
 
 struct ServeOptions {
   std::filesystem::path config, configs;

@@ -126,22 +126,42 @@ void add_service(CLI::App& app, ServeOptions& serve, ClientOptions& client) {
       "configs/scenes/mixed_stand.toml --tree-csv trees.csv");
 }
 
-void add_bench(CLI::App& app, BenchOptions& o) {
-  CLI::App* c = app.add_subcommand("bench", "Measure error and time of every method on generated scenes");
-  c->add_option("--scenes", o.scenes, "sphere, clumped, beech or all")->capture_default_str();
-  c->add_option("--bands", o.bands, "PAR, NIR or all")->capture_default_str();
-  c->add_option("--elements", o.elements, "Leaves of a generated crown")->capture_default_str();
-  c->add_option("--reference-rays", o.reference_rays, "Rays per face of the truth")->capture_default_str();
+void add_bench_common(CLI::App* c, BenchOptions& o) {
+  c->add_option("--methods", o.methods, "Names separated by commas, or all")->capture_default_str();
   c->add_option("--seed", o.seed, "Seed of the scenes")->capture_default_str()->check(CLI::NonNegativeNumber);
   c->add_option("--repeats", o.repeats, "Timed runs; the median is printed")->capture_default_str();
   c->add_option("--threads", o.threads, "Threads; 0: all cores")
       ->capture_default_str()
       ->check(CLI::Range(0, 4096));
   c->add_option("--csv", o.csv, "Table to write (.csv)");
-  c->add_option("--configs", o.configs, "Folder with species/ and grammars/");
-  c->footer(
-      "Examples:\n  sunfleck bench --scenes sphere --bands PAR\n  sunfleck bench --csv "
-      "error_against_time.csv");
+  c->add_option("--plot", o.plot, "Plots to draw (.svg or .png)");
+}
+
+void add_bench(CLI::App& app, BenchOptions& o) {
+  CLI::App* bench = app.add_subcommand("bench", "Measure methods on generated scenes");
+  bench->require_subcommand(1);
+  CLI::App* errors =
+      bench->add_subcommand("error-vs-time", "Error and time of every method, measured together");
+  errors->add_option("--scenes", o.scenes, "Names separated by commas, quick, or all")->capture_default_str();
+  errors->add_option("--bands", o.bands, "PAR, NIR, VIS, WHITE, separated by commas, or all")
+      ->capture_default_str();
+  errors->add_option("--reference-rays", o.reference_rays, "Rays per face of the truth")
+      ->capture_default_str();
+  errors->add_option("--configs", o.configs, "Folder with species/ and grammars/");
+  add_bench_common(errors, o);
+  CLI::App* growth = bench->add_subcommand("growth", "Cost of every method as the scene grows");
+  growth->add_option("--most-elements", o.most_elements, "Leave larger scenes out")->capture_default_str();
+  add_bench_common(growth, o);
+  for (CLI::App* c : {errors, growth}) c->callback([&o, c] { o.kind = c->get_name(); });
+  bench->footer(
+      "Examples:\n  sunfleck bench error-vs-time --scenes sphere --bands PAR\n  sunfleck bench error-vs-time "
+      "--scenes all --csv errors.csv --plot errors.svg\n  sunfleck bench growth --methods grid,auto --plot "
+      "growth.png");
+}
+
+void run_bench(const BenchOptions& o, const RunControl& control) {
+  if (o.kind == "growth") return run_bench_growth(o, control);
+  run_bench_errors(o, control);
 }
 
 bool has_command(const CLI::App& app, const std::string& name) {

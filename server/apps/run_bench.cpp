@@ -1,119 +1,148 @@
-// bench: error against time of every method on scenes made here. Published figures stand in the README beside
-// them.
+// bench: error against time of every method, growth of its cost, and stability, on scenes made here.
+#include <cmath>
 #include <cstdio>
-#include <sstream>
 
-#include "lighting/plan/error_against_time.h"
+#include "lighting/bench/bench_scenes.h"
+#include "lighting/bench/benchmark_tables.h"
+#include "lighting/bench/cost_growth.h"
 #include "server/apps/commands.h"
 #include "server/apps/outputs.h"
 #include "server/apps/scene_file.h"
 #include "server/apps/terminal.h"
 #include "sim/base/error.h"
 #include "sim/base/pending_file.h"
-#include "sim/forest/generated_scenes.h"
-#include "sim/plant/make_prototype.h"
 
 namespace sunfleck {
 namespace {
 
-Forest beech(const BenchOptions& o, const RunControl& control) {
-  const SpeciesLibrary library = SpeciesLibrary::load(find_configs(o.configs) / "species");
-  const Species& species = library.find("Fagus sylvatica", "bench");
-  Forest forest;
-  forest.name = "beech";
-  forest.materials = {species.material};
-  forest.prototypes.push_back(grow_prototype(species, expected_size(species, 30), o.seed, 1.0, control));
-  forest.instances.push_back({});
-  return forest;
-}
-
-std::vector<Forest> scenes(const BenchOptions& o, const RunControl& control) {
-  const bool all = o.scenes == "all";
-  std::vector<Forest> forests;
-  if (all || o.scenes == "sphere")
-    forests.push_back(generated_crown({.kind = CrownKind::kSphere, .leaves = o.elements, .seed = o.seed}));
-  if (all || o.scenes == "clumped")
-    forests.push_back(generated_crown({.kind = CrownKind::kClumped, .leaves = o.elements, .seed = o.seed}));
-  if (all || o.scenes == "beech") forests.push_back(beech(o, control));
-  if (forests.empty())
-    throw_invalid("--scenes", "there is no scene '" + o.scenes + "'", "sphere, clumped, beech or all");
-  return forests;
-}
-
-// Sun at 35 degrees zenith, 400 W m-2 on the horizontal from the sun and 100 from a uniform sky, per band.
-LightRequest sun_and_sky(const BenchOptions& o) {
-  LightRequest request;
-  const std::vector<std::pair<std::string, double>> known = {{"PAR", 0.10}, {"NIR", 0.25}};
-  request.light.to_sun = direction_from_azimuth_zenith(radians_from_degrees(160), radians_from_degrees(35));
-  for (const auto& [band, soil] : known)
-    if (o.bands == "all" || o.bands == band) {
-      request.optics.bands.push_back(band);
-      request.optics.soil_albedo.push_back(soil);
-      request.light.bands.push_back({400 / request.light.to_sun.z, 100});
-    }
-  if (request.light.bands.empty())
-    throw_invalid("--bands", "there is no band '" + o.bands + "'", "PAR, NIR or all");
-  request.reference.seed = o.seed;
-  return request;
-}
-
-std::string csv_line(const BenchmarkRow& r) {
-  std::ostringstream line;
-  line << r.scene << ',' << r.band << ',' << r.method << ',' << r.knob << ',' << r.elements << ','
-       << r.error.bias << ',' << r.error.element_rms << ',' << r.error.cell_rms << ','
-       << r.error.scattered_rms << ',' << r.truth_noise << ',' << r.wall_s << ',' << r.cpu_s << ','
-       << r.setup_s << '\n';
-  return line.str();
-}
-
-void print_row(const BenchmarkRow& r) {
-  std::printf("%-8s %-4s %-18s %-8s %8.1f %8.1f %8.1f %9.1f %10s %10s\n", r.scene.c_str(), r.band.c_str(),
-              r.method.c_str(), r.knob.c_str(), 100 * r.error.bias, 100 * r.error.element_rms,
-              100 * r.error.cell_rms, 100 * r.error.scattered_rms, seconds_text(r.wall_s).c_str(),
-              seconds_text(r.setup_s).c_str());
+void check_range(const char* option, double value, double low, double high, const char* range) {
+  if (!(value >= low && value <= high)) throw_invalid(option, "is out of range", range);
 }
 
 void check(const BenchOptions& o) {
-  if (o.elements < 1 || o.elements > 5'000'000)
-    throw_invalid("--elements", "is out of range", "1 to 5000000");
-  if (o.reference_rays < 2 || o.reference_rays > 65536)
-    throw_invalid("--reference-rays", "is out of range", "2 to 65536");
-  if (o.repeats < 1 || o.repeats > 1000) throw_invalid("--repeats", "is out of range", "1 to 1000");
+  check_range("--reference-rays", o.reference_rays, 2, 65536, "2 to 65536");
+  check_range("--repeats", o.repeats, 1, 1000, "1 to 1000");
+  check_range("--most-elements", static_cast<double>(o.most_elements), 1000, 2e7, "1000 to 20000000");
+  std::vector<Output> outputs;
+  if (!o.csv.empty()) outputs.push_back({"--csv", o.csv, ".csv"});
+  if (!o.plot.empty()) outputs.push_back({"--plot", o.plot, o.plot.extension() == ".png" ? ".png" : ".svg"});
+  if (!outputs.empty()) check_outputs("bench", outputs);
+}
+
+void say_machine(const MachineFacts& machine, const BenchOptions& o) {
+  std::printf("%s, %d thread%s used, %s, commit %s, %s\n", machine.processor.c_str(),
+              o.threads == 0 ? machine.threads : o.threads, o.threads == 1 ? "" : "s",
+              machine.date_utc.c_str(), machine.commit.c_str(), machine.build_type.c_str());
+}
+
+void print_row(const BenchmarkRow& r) {
+  std::printf("%-12s %-5s %-19s %-15s %7.1f %7.1f %6.1f %6.1f %7.1f %9s %9s %9s %7.0f MB\n", r.scene.c_str(),
+              r.band.c_str(), r.method.c_str(), r.knob.c_str(), 100 * r.error.bias, 100 * r.error.element_rms,
+              100 * r.error.cell_rms, 100 * r.error.class_rms, 100 * r.error.diffuse_rms,
+              seconds_text(r.wall_s).c_str(), seconds_text(r.cpu_s).c_str(), seconds_text(r.setup_s).c_str(),
+              1e-6 * static_cast<double>(r.peak_memory_bytes));
+}
+
+void print_head(const BenchOptions& o) {
+  std::printf("error in %% of the mean irradiance of an element; times: medians of %d\n", o.repeats);
+  std::printf("%-12s %-5s %-19s %-15s %7s %7s %6s %6s %7s %9s %9s %9s %10s\n", "scene", "band", "method",
+              "knob", "bias", "element", "cell", "class", "diffuse", "wall", "CPU", "setup", "peak");
+}
+
+void write_outputs(const BenchOptions& o, const std::string& csv, const PlotPage& page) {
+  if (!o.csv.empty()) {
+    write_whole_file(o.csv, csv);
+    std::printf("wrote    %s\n", o.csv.c_str());
+  }
+  if (!o.plot.empty()) {
+    draw_plots(page, o.plot);
+    std::printf("wrote    %s\n", o.plot.c_str());
+  }
+}
+
+// What the papers print for their own scenes, to read beside the rows.
+void print_published() {
+  std::printf(
+      "published, own scenes: [SPP] Table 3, class RMS, albedo .95, single tree / many trees: spp_g 6.2 / "
+      "9.2 "
+      "%%,\n"
+      "  spp 65 / 43 %%, single scattering 16 / 28 %%; Table 4, 13K cells: 117 ms preprocessing, 25 ms sky, "
+      "3.9 "
+      "ms sun;\n"
+      "  52K cells: 533, 100, 3.9 to 6.7 ms. [Boulanger08]: sky 5 %%, sun 7.5 %%, indirect sun 6 %%; 2 s and "
+      "40 "
+      "s of\n"
+      "  precomputation for 1,500 and 40,000 leaves.\n");
+}
+
+void print_front(const std::vector<BenchmarkRow>& rows, const std::string& scene, const std::string& band) {
+  std::printf("%-12s %-5s front:", scene.c_str(), band.c_str());
+  for (const std::size_t i : pareto_front(rows, scene, band))
+    std::printf(" %s (%s) %.1f %% in %s;", rows[i].method.c_str(), rows[i].knob.c_str(),
+                100 * rows[i].error.element_rms, seconds_text(rows[i].cpu_s).c_str());
+  std::printf("\n");
 }
 
 }  // namespace
 
-void run_bench(const BenchOptions& o, const RunControl& control) {
+void run_bench_errors(const BenchOptions& o, const RunControl& control) {
   check(o);
-  if (!o.csv.empty()) check_outputs("bench", {{"--csv", o.csv, ".csv"}});
-  const LightRequest request = sun_and_sky(o);
-  const BenchmarkPlan plan{o.reference_rays,
-                           o.repeats,
-                           {o.threads},
-                           {Method::kSingleScattering, Method::kSpp, Method::kSppG, Method::kEnvelope,
-                            Method::kEnvelopeMarched, Method::kGrid}};
-  std::string csv =
-      "scene,band,method,knob,elements,bias,element_rms,cell_rms,diffuse_rms,truth_noise,wall_s,cpu_s,setup_"
-      "s\n";
-  std::printf(
-      "error in %% of the mean irradiance; diffuse: sky + scattered light only; time: median of %d, %d "
-      "threads\n",
-      o.repeats, o.threads);
-  std::printf("%-8s %-4s %-18s %-8s %8s %8s %8s %9s %10s %10s\n", "scene", "band", "method", "knob", "bias",
-              "element", "cell", "diffuse", "time", "of it setup");
-  for (const Forest& forest : scenes(o, control)) {
-    const std::vector<BenchmarkRow> rows = error_against_time(forest, request, plan, control);
+  const auto scenes = choose_scenes(bench_scenes(o.seed, find_configs(o.configs) / "species"), o.scenes);
+  const BenchmarkPlan plan{o.reference_rays, o.repeats, {o.threads}, method_ladders(o.methods)};
+  const MachineFacts machine = machine_facts();
+  say_machine(machine, o);
+  print_head(o);
+  std::vector<BenchmarkRow> all;
+  std::vector<std::string> refused;
+  for (const BenchScene& scene : scenes) {
+    const Forest forest = scene.make(control);
+    LightRequest request = bench_light(forest, o.bands);
+    request.reference.seed = o.seed;
+    const auto rows = error_against_time(forest, request, plan, refused, control);
     finish_progress();
-    for (const BenchmarkRow& row : rows) {
-      print_row(row);
-      csv += csv_line(row);
-    }
-    std::printf("%-8s truth: %d rays per face, own noise %.1f %% per element\n", forest.name.c_str(),
-                o.reference_rays, 100 * rows.front().truth_noise);
+    for (const BenchmarkRow& row : rows) print_row(row);
+    for (const std::string& band : request.optics.bands) print_front(rows, forest.name, band);
+    if (!rows.empty())
+      std::printf("%-12s truth: %d rays per face, own noise %.1f %% per element\n", forest.name.c_str(),
+                  o.reference_rays, 100 * rows.front().truth_noise);
+    all.insert(all.end(), rows.begin(), rows.end());
   }
-  if (o.csv.empty()) return;
-  write_whole_file(o.csv, csv);
-  std::printf("wrote    %s\n", o.csv.c_str());
+  for (const std::string& line : refused) std::printf("refused  %s\n", line.c_str());
+  print_published();
+  write_outputs(o, benchmark_csv(all, o.threads, machine), pareto_page(all, machine));
+}
+
+void run_bench_growth(const BenchOptions& o, const RunControl& control) {
+  check(o);
+  const GrowthPlan plan{.steps = method_ladders(o.methods),
+                        .most_elements = o.most_elements,
+                        .repeats = o.repeats,
+                        .cost = {o.threads},
+                        .seed = o.seed};
+  const MachineFacts machine = machine_facts();
+  say_machine(machine, o);
+  std::printf("%-10s %9s %-19s %-15s %9s %9s  %-24s %s\n", "growing", "count", "method", "knob", "wall",
+              "CPU", "bias % [95 % interval]", "RMS per element %");
+  std::vector<GrowthRow> all;
+  for (const GrowthKind kind : {GrowthKind::kLeaves, GrowthKind::kInstances, GrowthKind::kBands}) {
+    const auto rows = cost_growth(kind, plan, control);
+    finish_progress();
+    for (const GrowthRow& r : rows)
+      std::printf("%-10s %9.0f %-19s %-15s %9s %9s  %6.1f [%5.1f, %5.1f]     %.1f [%.1f, %.1f]\n",
+                  to_string(kind).c_str(), r.count, r.method.c_str(), r.knob.c_str(),
+                  seconds_text(r.wall_s).c_str(), seconds_text(r.cpu_s).c_str(), 100 * r.bias,
+                  100 * r.bias_low, 100 * r.bias_high, 100 * r.element_rms, 100 * r.element_rms_low,
+                  100 * r.element_rms_high);
+    for (const MethodStep& step : plan.steps) {
+      const double p =
+          growth_exponent(rows, to_string(step.method), step.knob, kind == GrowthKind::kLeaves ? 1e4 : 1);
+      if (std::isfinite(p))
+        std::printf("%-10s exponent of %s (%s): %.2f\n", to_string(kind).c_str(),
+                    to_string(step.method).c_str(), step.knob.c_str(), p);
+    }
+    all.insert(all.end(), rows.begin(), rows.end());
+  }
+  write_outputs(o, growth_csv(all, o.threads, machine), growth_page(all, machine));
 }
 
 }  // namespace sunfleck

@@ -4,6 +4,7 @@
 
 #include "sim/base/contract.h"
 #include "sim/base/random.h"
+#include "sim/plant/leaf_angle_sampling.h"
 
 namespace sunfleck {
 namespace {
@@ -30,6 +31,8 @@ Vec3 random_in_crown(CrownKind kind, RandomStream& random) {
       const double radius = down * std::sqrt(random.uniform()), turn = random.uniform(0, 2 * kPi);
       return {radius * std::cos(turn), radius * std::sin(turn), 1 - 2 * down};
     }
+    case CrownKind::kEllipsoid:
+      return random_in_ball(random) * Vec3(1, 1, 2);
     case CrownKind::kClumped:
       break;
   }
@@ -72,17 +75,18 @@ Forest forest_of(Prototype prototype, std::string name) {
 Forest generated_crown(const GeneratedCrown& crown) {
   SUNFLECK_EXPECTS(crown.leaves > 0 && crown.radius_m > 0 && crown.crown_lai > 0);
   const double side_m = std::sqrt(crown.crown_lai * kPi * crown.radius_m * crown.radius_m / crown.leaves);
-  const Vec3 centre(0, 0, 1.5 * crown.radius_m);
+  const Vec3 centre(0, 0, (crown.kind == CrownKind::kEllipsoid ? 2.5 : 1.5) * crown.radius_m);
   Prototype prototype;
   for (int i = 0; i < crown.leaves; ++i) {
     RandomStream random(crown.seed, static_cast<std::uint64_t>(i), RandomPurpose::kTestScene);
     const Vec3 point = crown.kind == CrownKind::kClumped ? clumped_point(crown.seed, random)
                                                          : random_in_crown(crown.kind, random);
-    const Vec3 normal = random_direction(random);
+    const Vec3 normal = crown.angles == LeafAngles::kSpherical ? random_direction(random)
+                                                               : sample_leaf_normal(crown.angles, random);
     prototype.foliage.push_back(
         square_leaf(centre + crown.radius_m * point, normal, random.uniform(0, 2 * kPi), side_m));
   }
-  constexpr const char* kNames[] = {"sphere", "clumped", "cone", "shell"};
+  constexpr const char* kNames[] = {"sphere", "clumped", "cone", "shell", "ellipsoid"};
   return forest_of(std::move(prototype), kNames[static_cast<int>(crown.kind)]);
 }
 

@@ -5,14 +5,16 @@
 #include <string>
 
 #include "sim/forest/forest.h"
+#include "sim/plant/species.h"
 
 namespace sunfleck {
 
 enum class CrownKind {
-  kSphere,   // leaves even in a ball
-  kClumped,  // the same leaf area in 120 small clumps inside the ball
-  kCone,     // upright cone, height twice its base radius
-  kShell     // between 70 and 100 % of the radius
+  kSphere,    // leaves even in a ball
+  kClumped,   // the same leaf area in 120 small clumps inside the ball
+  kCone,      // upright cone, height twice its base radius
+  kShell,     // between 70 and 100 % of the radius
+  kEllipsoid  // upright, twice as high as wide
 };
 
 struct GeneratedCrown {
@@ -21,10 +23,11 @@ struct GeneratedCrown {
   double radius_m = 1;
   double crown_lai = 5;  // one-sided leaf area / (pi radius^2)
   std::uint64_t seed = 1;
+  LeafAngles angles = LeafAngles::kSpherical;
 };
 
-// One tree of square leaves with uniformly distributed normals; the crown stands clear of the ground by half
-// its radius. Its material "leaf" has r = t = 0.25 in VIS, 0.10 / 0.05 in PAR and 0.45 / 0.45 in NIR.
+// One tree of square leaves; the crown stands clear of the ground by half its radius. Its material "leaf" has
+// r = t = 0.25 in VIS, 0.10 / 0.05 in PAR and 0.45 / 0.45 in NIR.
 Forest generated_crown(const GeneratedCrown& crown);
 
 // Random square leaves (spherical angles) in a box that repeats in x and y: a homogeneous canopy of that LAI.

@@ -179,7 +179,7 @@ TEST(CommandLine, TellsOneClearErrorAndLeavesNothingBehind) {
       {"import nowhere.txt -o " + out, "nowhere.txt"},
       {"import " + write_file("bad.txt", "0.1 0 0 x 0 0 1\n").string() + " -o " + out, "bad.txt:1"},
       {"export " + forest + " --prototype 99 -o " + out, "0 to 2"},
-      {"bench --scenes moon", "sphere"},
+      {"bench error-vs-time --scenes moon", "sphere"},
       {"grow " + scene + " --print", "--lsystem"},
       {"grow " + scene + " -o /nonexistent/a.vdb", "there is no folder"},
       {"light " + forest + " --scene " + scene + " -o /nonexistent/a.nc", "there is no folder"},
