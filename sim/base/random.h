@@ -28,7 +28,9 @@ enum class RandomPurpose : std::uint32_t {
   kProbeDraw,
   kProbePaths,
   kProbeSun,
-  kProbeResampling
+  kProbeResampling,
+  kSurroundings = 40,
+  kClumps
 };
 
 // One stream of numbers: (seed, element, purpose) names it, next() walks it. Cheap to make, copy and skip.

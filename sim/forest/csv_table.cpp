@@ -50,7 +50,10 @@ std::string joined(const std::vector<std::string>& words) {
 
 }  // namespace
 
-CsvTable::CsvTable(std::string_view csv, std::string name) : name_(std::move(name)) {
+CsvTable::CsvTable(std::string_view csv, std::string name) : CsvTable(csv, std::move(name), nullptr) {}
+
+CsvTable::CsvTable(std::string_view csv, std::string name, std::vector<Error>* bad_rows)
+    : name_(std::move(name)), bad_rows_(bad_rows) {
   const std::string text = without_byte_order_mark(csv);
   std::string_view rest = text;
   for (std::size_t number = 1; !rest.empty(); ++number) {
@@ -104,14 +107,19 @@ void CsvTable::read_header(std::string_view line, std::size_t number) {
   }
 }
 
-void CsvTable::read_row(std::string_view line, std::size_t number) {
+void CsvTable::read_row(std::string_view line, std::size_t number) try {
   Row row{number, split(line, number)};
   if (row.fields.size() != header_.fields.size()) {
     throw_invalid(at_line(number), "the row has " + std::to_string(row.fields.size()) + " fields",
                   "the header names " + std::to_string(header_.fields.size()) + " columns");
   }
   rows_.push_back(std::move(row));
+} catch (const Error& error) {
+  if (bad_rows_ == nullptr) throw;
+  bad_rows_->push_back(error);
 }
+
+std::string CsvTable::column_names() const { return joined(header_.fields); }
 
 std::optional<std::size_t> CsvTable::column(const std::string& name) const {
   const auto found = std::find(header_.fields.begin(), header_.fields.end(), name);

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "sim/base/error.h"
+
 namespace sunfleck {
 
 // Fields separated by , or ; or tabs (whichever the header uses most), quoted with " ("" is a quote inside),
@@ -16,8 +18,14 @@ class CsvTable {
   // Throws Error(kInvalidInput) at "name:line": no header, two columns of one name, a row of another length,
   // an open quote.
   CsvTable(std::string_view csv, std::string name);
+  // The same, but rows that cannot be read go to `bad_rows` instead of being thrown.
+  CsvTable(std::string_view csv, std::string name, std::vector<Error>* bad_rows);
 
   std::size_t rows() const { return rows_.size(); }
+  std::size_t columns() const { return header_.fields.size(); }
+  const std::string& column_name(std::size_t column) const { return header_.fields[column]; }
+  std::string column_names() const;                                   // "a, b, c"
+  std::string header_where() const { return at_line(header_.line); }  // "name:line"
   // Index of the column, or nothing.
   std::optional<std::size_t> column(const std::string& name) const;
   // Same, but throws at the header's line with the columns there are.
@@ -40,6 +48,7 @@ class CsvTable {
   std::string at_line(std::size_t number) const { return name_ + ":" + std::to_string(number); }
 
   std::string name_;
+  std::vector<Error>* bad_rows_ = nullptr;
   char separator_ = ',';
   Row header_{0, {}};
   std::vector<Row> rows_;

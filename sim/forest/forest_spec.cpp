@@ -4,6 +4,7 @@
 #include "sim/forest/forest_spec.h"
 
 #include "sim/base/error.h"
+#include "sim/forest/surroundings.h"
 
 namespace sunfleck {
 
@@ -61,11 +62,32 @@ void read_trees(const ConfigTable& table, ForestSpec& spec) {
   spec.plot_depth_m = table.number("plot_depth_m", {0.1, 1e5});
 }
 
+Surroundings surroundings_of(const ConfigTable& table) {
+  const std::string kind = table.choice_or("kind", "similar", {"none", "periodic", "mirrored", "similar"});
+  for (const Surroundings s : {Surroundings::kNone, Surroundings::kPeriodic, Surroundings::kMirrored})
+    if (kind == to_string(s)) return s;
+  return Surroundings::kSimilar;
+}
+
+void read_plot(const ConfigTable& table, ForestSpec& spec) {
+  if (table.has("plot_polygon"))
+    spec.plot = read_plot_polygon(table.directory() / table.text("plot_polygon"));
+  if (const auto around = table.table_if("surroundings")) {
+    spec.surroundings = surroundings_of(*around);
+    spec.surroundings_width_m = around->number_or("width_m", 0, {0, 1e4});
+  }
+}
+
 void read_geometry(const ConfigTable& table, ForestSpec& spec) {
   const std::string trees = table.choice_or("trees", "lsystem", {"lsystem", "crown"});
   spec.trees = trees == "crown" ? TreeSource::kCrown : TreeSource::kLsystem;
   spec.elements_per_tree =
       static_cast<int>(table.integer_or("elements_per_tree", spec.elements_per_tree, {1, 1e7}));
+  if (const auto clumps = table.table_if("clumps")) {
+    spec.clumps.radius_m = clumps->number("radius_m", {0, 100});
+    spec.clumps.elements = static_cast<int>(clumps->integer_or("elements", spec.clumps.elements, {1, 1e6}));
+  }
+  spec.leaf_area_factor = table.number_or("leaf_area_factor", 1, {1e-3, 1e3});
   spec.detail = table.number_or("detail", spec.detail, {1e-4, 1});
   spec.size_classes = static_cast<int>(table.integer_or("size_classes", spec.size_classes, {1, 1000}));
   spec.variants = static_cast<int>(table.integer_or("variants", spec.variants, {1, 1000}));
@@ -80,6 +102,7 @@ ForestSpec read_forest_spec(const ConfigTable& table) {
   read_geometry(table, spec);
   if (const auto terrain = table.table_if("terrain")) spec.terrain = terrain_of(*terrain);
   if (const auto period = table.table_if("period")) spec.period = period_of(*period);
+  read_plot(table, spec);
   read_trees(table, spec);
   return spec;
 }

@@ -11,6 +11,7 @@
 #include "sim/base/run_control.h"
 #include "sim/config/config_table.h"
 #include "sim/forest/forest.h"
+#include "sim/forest/plot_polygon.h"
 #include "sim/plant/species.h"
 
 namespace sunfleck {
@@ -24,7 +25,18 @@ struct InventoryTree {
   std::optional<double> height_m, crown_base_m, widest_m, radius_n_m, radius_s_m, radius_e_m, radius_w_m,
       leaf_area_density_per_m;
   std::string where;  // "file:line" of its row or the planting rule, for messages; empty if from neither
+  // A tree of the surroundings that looks like this one of the inventory, turned.
+  std::optional<TreeId> copy_of;
+  double copy_yaw_rad = 0;
 };
+
+// Trees of an inventory are numbered up to here; larger numbers are for trees that nobody measured.
+inline constexpr std::uint32_t kLargestTreeNumber = 0x7fffffff;
+inline TreeId virtual_tree(std::size_t number) {
+  return {kLargestTreeNumber + 1 + static_cast<std::uint32_t>(number)};
+}
+inline bool is_virtual(TreeId tree) { return tree.value > kLargestTreeNumber; }
+
 // Throws Error(kInvalidInput) with "file:line, column": missing column, not a number, negative, duplicate id,
 // crown base above the top. An empty table is an error.
 std::vector<InventoryTree> read_inventory(const std::filesystem::path& path);
@@ -47,6 +59,16 @@ enum class TreeSource {
   kCrown     // one prototype per tree: its own crown shape filled with leaves
 };
 
+// What stands beyond the border of an inventoried plot, see surroundings.h.
+enum class Surroundings { kNone, kPeriodic, kMirrored, kSimilar };
+
+// kCrown: leaves in clumps instead of evenly. Clump centres are even in the crown, leaves even in their
+// clump.
+struct LeafClumps {
+  double radius_m = 0;  // 0: none
+  int elements = 20;    // of a clump
+};
+
 struct ForestSpec {
   std::string name = "forest";
   std::uint64_t seed = 1;
@@ -54,10 +76,15 @@ struct ForestSpec {
   std::vector<InventoryTree> inventory;  // either this
   std::vector<PlantingRule> planting;    // or this, inside [0, width] x [0, depth]
   double plot_width_m = 0, plot_depth_m = 0;
-  int elements_per_tree = 1000;  // kCrown: foliage elements per tree
-  double detail = 1.0;           // kLsystem: share of the foliage elements kept, (0, 1]
-  int size_classes = 4;          // kLsystem: DBH classes per species
-  int variants = 2;              // kLsystem: prototypes per class
+  std::optional<PlotPolygon> plot;  // the inventoried area; without: the rectangle around the trees
+  Surroundings surroundings = Surroundings::kNone;
+  double surroundings_width_m = 0;  // 0: twice the height of the tall trees
+  int elements_per_tree = 1000;     // kCrown: foliage elements per tree
+  LeafClumps clumps;                // kCrown
+  double leaf_area_factor = 1;      // kCrown: multiplies the leaf area of every tree
+  double detail = 1.0;              // kLsystem: share of the foliage elements kept, (0, 1]
+  int size_classes = 4;             // kLsystem: DBH classes per species
+  int variants = 2;                 // kLsystem: prototypes per class
   Terrain terrain;
   std::optional<Period> period;
 };

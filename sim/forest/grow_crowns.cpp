@@ -27,8 +27,10 @@ void check_elements(const ForestSpec& spec, std::size_t trees) {
 Prototype crown_of(const ForestSpec& spec, const StandTree& entry) {
   const CrownShape crown = tree_crown(entry.tree, *entry.species);
   CrownFill fill;
-  fill.leaf_area_m2 = tree_leaf_area_m2(entry.tree, *entry.species, crown);
+  fill.leaf_area_m2 = spec.leaf_area_factor * tree_leaf_area_m2(entry.tree, *entry.species, crown);
   fill.elements = spec.elements_per_tree;
+  fill.clump_radius_m = spec.clumps.radius_m;
+  fill.clump_elements = spec.clumps.elements;
   fill.seed = mix_seed(spec.seed, entry.tree.id.value);
   Prototype prototype = crown_prototype(*entry.species, crown, fill);
   prototype.name = entry.species->latin + " " + std::to_string(entry.tree.id.value);

@@ -1,12 +1,16 @@
 // Trees (inventory or planted) -> their species -> prototypes and instances -> a forest that is valid.
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
 #include "sim/base/error.h"
+#include "sim/base/random.h"
 #include "sim/forest/forest_spec.h"
 #include "sim/forest/planting.h"
 #include "sim/forest/stand.h"
+#include "sim/forest/surroundings.h"
 #include "sim/forest/tree_size.h"
 
 namespace sunfleck {
@@ -25,6 +29,53 @@ std::vector<InventoryTree> trees_of(const ForestSpec& spec, const RunControl& co
   PlantedTrees planted = plant_trees(spec, control);
   notes.insert(notes.end(), planted.shortfalls.begin(), planted.shortfalls.end());
   return std::move(planted.trees);
+}
+
+// The rectangle around the trees and half the mean distance between them.
+PlotPolygon plot_around(const std::vector<InventoryTree>& trees) {
+  Vec2 lo(INFINITY), hi(-INFINITY);
+  for (const InventoryTree& tree : trees) {
+    lo = glm::min(lo, Vec2(tree.x_m, tree.y_m));
+    hi = glm::max(hi, Vec2(tree.x_m, tree.y_m));
+  }
+  const double n = std::sqrt(static_cast<double>(trees.size()));
+  const Vec2 margin = 0.5 * (hi - lo) / std::max(n - 1, 1.0) + 1e-3;
+  return rectangle(lo - margin, hi + margin);
+}
+
+// Adds what stands around the plot; sets the period of a stand that repeats.
+std::vector<InventoryTree> with_surroundings(const ForestSpec& spec, std::vector<InventoryTree> trees,
+                                             Forest& forest, std::vector<std::string>& notes) {
+  if (spec.surroundings == Surroundings::kNone) return trees;
+  if (spec.period)
+    throw_invalid("forest.period", "the stand has surroundings already", "give period or surroundings");
+  const PlotPolygon plot = spec.plot ? *spec.plot : plot_around(trees);
+  SurroundedStand stand =
+      surround(trees, plot, spec.surroundings, spec.surroundings_width_m, mix_seed(spec.seed, 77));
+  if (stand.period) forest.period = stand.period;
+  notes.insert(notes.end(), stand.notes.begin(), stand.notes.end());
+  return std::move(stand.trees);
+}
+
+// Trees that look like another one are instances of its prototype.
+void place_copies(const std::vector<StandTree>& copies, Forest& forest) {
+  std::map<TreeId, Instance> originals;
+  for (const Instance& instance : forest.instances) originals.emplace(instance.tree, instance);
+  for (const StandTree& copy : copies) {
+    Instance instance = originals.at(*copy.tree.copy_of);
+    instance.position_m = stem_foot_m(forest.terrain, copy.tree);
+    instance.yaw_rad += static_cast<float>(copy.tree.copy_yaw_rad);
+    instance.tree = copy.tree.id;
+    forest.instances.push_back(instance);
+  }
+}
+
+std::vector<StandTree> take_copies(std::vector<StandTree>& stand) {
+  const auto first =
+      std::stable_partition(stand.begin(), stand.end(), [](const StandTree& s) { return !s.tree.copy_of; });
+  std::vector<StandTree> copies(first, stand.end());
+  stand.erase(first, stand.end());
+  return copies;
 }
 
 std::vector<StandTree> stand_of(std::vector<InventoryTree> trees, const SpeciesLibrary& library) {
@@ -64,7 +115,9 @@ Forest grow_forest(const ForestSpec& spec, const SpeciesLibrary& species, const 
   forest.terrain = spec.terrain;
   forest.period = spec.period;
   validate(forest);  // ground and period, before anything costs time
-  const std::vector<StandTree> stand = stand_of(trees_of(spec, control, said), species);
+  std::vector<StandTree> stand =
+      stand_of(with_surroundings(spec, trees_of(spec, control, said), forest, said), species);
+  const std::vector<StandTree> copies = take_copies(stand);
   forest.materials = materials_of(stand);
   switch (spec.trees) {
     case TreeSource::kCrown:
@@ -74,6 +127,7 @@ Forest grow_forest(const ForestSpec& spec, const SpeciesLibrary& species, const 
       grow_lsystems(spec, stand, control, forest, said);
       break;
   }
+  place_copies(copies, forest);
   validate(forest);
   if (notes != nullptr) notes->insert(notes->end(), said.begin(), said.end());
   return forest;

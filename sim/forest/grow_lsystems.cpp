@@ -123,6 +123,8 @@ void check_options(const ForestSpec& spec, const std::vector<StandTree>& stand) 
   if (!(spec.detail > 0 && spec.detail <= 1)) {
     throw_invalid("forest.detail", "is " + std::to_string(spec.detail), "above 0, at most 1");
   }
+  if (spec.leaf_area_factor != 1.0)
+    throw_invalid("forest.leaf_area_factor", "is for crowns filled with leaves", "trees = \"crown\"");
   for (const StandTree& entry : stand) {
     if (!entry.species->grammar.empty()) continue;
     throw_invalid(tree_label(entry.tree), entry.species->latin + " has no grammar",

@@ -59,11 +59,33 @@ bool stands_free(const CrownShape& crown, const FoliageElement& element) {
   return std::hypot(c.x, c.y) >= stem_radius_m(crown, c.z) && element_bounds(element).lo.z >= 0.0;
 }
 
-FoliageElement place_element(const Species& species, const CrownShape& crown, const CrownSampler& sampler,
-                             double area_m2, double share, RandomStream& random) {
+// Centres of elements: even in the crown, or in clumps that are.
+class CentreSampler {
+ public:
+  CentreSampler(const CrownShape& crown, const CrownFill& fill) : crown_(crown), fill_(fill) {}
+  Vec3 sample(std::size_t element, double share, RandomStream& random) const {
+    if (fill_.clump_radius_m <= 0.0) return crown_.sample(share, random);
+    const std::size_t clump = element / static_cast<std::size_t>(fill_.clump_elements);
+    const double clumps = std::ceil(static_cast<double>(fill_.elements) / fill_.clump_elements);
+    RandomStream of_clump(fill_.seed, clump, RandomPurpose::kClumps);
+    const double clump_share = (static_cast<double>(clump) + of_clump.uniform()) / clumps;
+    return crown_.sample(clump_share, of_clump) + fill_.clump_radius_m * random_in_ball(random);
+  }
+
+ private:
+  static Vec3 random_in_ball(RandomStream& random) {
+    const double z = random.uniform(-1, 1), turn = random.uniform(0, 2 * kPi), s = std::sqrt(1 - z * z);
+    return std::cbrt(random.uniform()) * Vec3(s * std::cos(turn), s * std::sin(turn), z);
+  }
+  const CrownSampler crown_;
+  const CrownFill& fill_;
+};
+
+FoliageElement place_element(const Species& species, const CrownShape& crown, const CentreSampler& sampler,
+                             std::size_t number, double area_m2, double share, RandomStream& random) {
   FoliageElement element;
   for (int i = 0; i < kMostTries; ++i) {
-    const Vec3 centre_m = sampler.sample(share, random);
+    const Vec3 centre_m = sampler.sample(number, share, random);
     const Vec3 normal = sample_leaf_normal(species.foliage.angles, random);
     element = make_element(species.foliage, area_m2, centre_m, normal, random.uniform(0.0, 2.0 * kPi));
     if (stands_free(crown, element)) break;
@@ -77,6 +99,8 @@ void require_possible(const CrownFill& fill, const std::string& where) {
   if (fill.elements < 1 || fill.elements > kMostElements)
     throw_invalid(where + ": elements", std::to_string(fill.elements) + " foliage elements are not possible",
                   "give a number from 1 to " + std::to_string(kMostElements));
+  if (!(fill.clump_radius_m >= 0.0 && fill.clump_radius_m <= 100.0) || fill.clump_elements < 1)
+    throw_invalid(where + ": clumps", "are not possible", "a radius from 0 to 100 m and 1 element or more");
 }
 
 }  // namespace
@@ -90,7 +114,7 @@ Prototype crown_prototype(const Species& species, const CrownShape& crown, const
   prototype.stated_dbh_m = crown.dbh_m;
   prototype.wood = crown_stem(crown);
 
-  const CrownSampler sampler(crown);
+  const CentreSampler sampler(crown, fill);
   const auto count = static_cast<std::size_t>(fill.elements);
   const double each_m2 = static_cast<float>(fill.leaf_area_m2 / fill.elements);
   double left_m2 = fill.leaf_area_m2;
@@ -99,7 +123,7 @@ Prototype crown_prototype(const Species& species, const CrownShape& crown, const
     RandomStream random(fill.seed, i, RandomPurpose::kCrownFill);
     const double share = (static_cast<double>(i) + random.uniform()) / fill.elements;
     const double area_m2 = i + 1 < count ? each_m2 : left_m2;
-    prototype.foliage.push_back(place_element(species, crown, sampler, area_m2, share, random));
+    prototype.foliage.push_back(place_element(species, crown, sampler, i, area_m2, share, random));
     left_m2 -= each_m2;
   }
   return prototype;

@@ -46,6 +46,8 @@ struct CrownFill {
   double leaf_area_m2 = 60;  // exact: the last element takes the remainder
   int elements = 1000;       // number of foliage elements; their size follows from the area
   std::uint64_t seed = 1;
+  double clump_radius_m = 0;  // 0: leaves even in the crown; else in balls of this radius, even in the crown
+  int clump_elements = 20;    // of each ball
 };
 // Fills the crown evenly with leaves (or shoots) of the species' angle distribution; a conical stem to the
 // top.
