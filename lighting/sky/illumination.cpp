@@ -14,18 +14,6 @@ void check_strength(double value, const std::string& where) {
 
 }  // namespace
 
-std::string to_string(SkyModel model) {
-  return model == SkyModel::kUniform ? "uniform" : "standard_overcast";
-}
-
-double relative_sky_radiance(SkyModel model, double cos_zenith) {
-  if (!(cos_zenith > 0.0)) return 0.0;
-  // Both integrate to 1 over the cosine-weighted hemisphere: pi L = 1, and Lz * 7 pi / 9 = 1 with L = Lz
-  // (1+2c)/3.
-  if (model == SkyModel::kUniform) return 1.0 / kPi;
-  return (9.0 / (7.0 * kPi)) * (1.0 + 2.0 * cos_zenith) / 3.0;
-}
-
 Illumination checked(Illumination light, std::size_t band_count) {
   if (!is_finite(light.to_sun)) throw_invalid("illumination.to_sun", "is not finite", "a direction");
   const double length = glm::length(light.to_sun);

@@ -4,18 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "lighting/sky/sky_model.h"
 #include "sim/base/vec.h"
 
 namespace sunfleck {
-
-enum class SkyModel {
-  kUniform,          // the same radiance from everywhere above the horizon
-  kStandardOvercast  // L = Lz (1 + 2 cos zenith) / 3, Moon and Spencer 1942
-};
-std::string to_string(SkyModel model);  // "uniform", "standard_overcast"
-
-// Radiance of the sky for a diffuse irradiance of 1 on a horizontal plane, 1/sr; 0 at and below the horizon.
-double relative_sky_radiance(SkyModel model, double cos_zenith);
 
 // Strengths of one band.
 struct BandLight {
