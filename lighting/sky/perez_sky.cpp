@@ -35,6 +35,12 @@ constexpr double kMostBrightness = 0.6;
 
 }  // namespace
 
+Vec3 lifted_to_horizon(const Vec3& to_sun) {
+  if (to_sun.z >= 0.0) return to_sun;
+  const double across = std::hypot(to_sun.x, to_sun.y);
+  return across > 0.0 ? Vec3(to_sun.x / across, to_sun.y / across, 0.0) : Vec3(0.0, 1.0, 0.0);
+}
+
 double relative_air_mass(double zenith_rad) {
   const double zenith_deg = std::clamp(degrees_from_radians(zenith_rad), 0.0, 90.0);
   return 1.0 /

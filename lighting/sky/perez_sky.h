@@ -28,6 +28,9 @@ struct PerezSky {
 PerezSky perez_sky(const Vec3& to_sun, double beam_normal, double diffuse_horizontal,
                    double extraterrestrial_normal);
 
+// The direction itself, or the one at the horizon above it (north if it points straight down).
+Vec3 lifted_to_horizon(const Vec3& to_sun);
+
 // Air mass by the apparent zenith angle, 1 to 38. Kasten and Young 1989, Applied Optics 28:4735-4738.
 double relative_air_mass(double zenith_rad);
 

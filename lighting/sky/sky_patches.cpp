@@ -16,6 +16,24 @@ Vec3 at_height(double z, double azimuth_rad) {
 
 double cos_deg(double degrees) { return std::cos(radians_from_degrees(degrees)); }
 
+// Means over each patch, scaled to a horizontal irradiance of 1.
+template <typename Radiance>
+std::vector<double> patch_means(const HemisphereGrid& grid, const HemisphereGrid::Points& points,
+                                const Radiance& radiance_from) {
+  const std::size_t per_patch = points.direction.size() / grid.size();
+  SUNFLECK_EXPECTS(per_patch * grid.size() == points.direction.size());
+  const SkyDirections& d = grid.directions();
+  std::vector<double> radiance(grid.size(), 0.0);
+  double horizontal = 0;
+  for (std::size_t p = 0; p < grid.size(); ++p) {
+    for (std::size_t i = p * per_patch; i < (p + 1) * per_patch; ++i)
+      radiance[p] += radiance_from(points.direction[i]);
+    horizontal += radiance[p] * d.solid_angle_sr[p] * d.to_source[p].z;
+  }
+  for (double& r : radiance) r /= horizontal;
+  return radiance;
+}
+
 }  // namespace
 
 HemisphereGrid::HemisphereGrid(const std::vector<double>& falling_z, const std::vector<int>& patches) {
@@ -94,18 +112,15 @@ HemisphereGrid::Points sky_points(const HemisphereGrid& grid) {
 
 std::vector<double> patch_radiance(const SkyRadiance& sky, const HemisphereGrid& grid,
                                    const HemisphereGrid::Points& points) {
-  const std::size_t per_patch = points.direction.size() / grid.size();
-  SUNFLECK_EXPECTS(per_patch * grid.size() == points.direction.size());
-  const SkyDirections& d = grid.directions();
-  std::vector<double> radiance(grid.size(), 0.0);
-  double horizontal = 0;
-  for (std::size_t p = 0; p < grid.size(); ++p) {
-    for (std::size_t i = p * per_patch; i < (p + 1) * per_patch; ++i)
-      radiance[p] += sky.radiance(points.direction[i]) / static_cast<double>(per_patch);
-    horizontal += radiance[p] * d.solid_angle_sr[p] * d.to_source[p].z;
-  }
-  for (double& r : radiance) r /= horizontal;
-  return radiance;
+  return patch_means(grid, points, [&](const Vec3& v) { return sky.radiance(v); });
+}
+
+std::vector<double> patch_radiance(const PerezSky& sky, const HemisphereGrid& grid,
+                                   const HemisphereGrid::Points& points) {
+  const PerezShape shape = perez_shape(sky);
+  const Vec3 to_sun = lifted_to_horizon(sky.to_sun);
+  return patch_means(grid, points,
+                     [&](const Vec3& v) { return perez_relative_radiance(shape, v.z, glm::dot(v, to_sun)); });
 }
 
 }  // namespace sunfleck

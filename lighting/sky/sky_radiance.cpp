@@ -14,12 +14,6 @@ const HemisphereGrid::Points& normalising_points() {
   return points;
 }
 
-Vec3 lifted_to_horizon(const Vec3& to_sun) {
-  if (to_sun.z >= 0.0) return to_sun;
-  const double across = std::hypot(to_sun.x, to_sun.y);
-  return across > 0.0 ? Vec3(to_sun.x / across, to_sun.y / across, 0.0) : Vec3(0.0, 1.0, 0.0);
-}
-
 }  // namespace
 
 std::string to_string(SkyModel model) {
