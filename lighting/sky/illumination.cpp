@@ -12,7 +12,21 @@ void check_strength(double value, const std::string& where) {
     throw_invalid(where, "is not a number >= 0", "an irradiance in W m-2");
 }
 
+void check_weather(const Illumination& light) {
+  if (!(light.sky_clearness >= 1.0 && std::isfinite(light.sky_clearness)))
+    throw_invalid("illumination.sky_clearness", "is not a number >= 1",
+                  "1 for overcast, above 6.2 for clear");
+  if (!(light.sky_brightness >= 0.0 && light.sky_brightness <= 1.0))
+    throw_invalid("illumination.sky_brightness", "is outside [0, 1]",
+                  "0.05 for a dark sky to 0.6 for a bright one");
+}
+
 }  // namespace
+
+SkyRadiance sky_radiance(const Illumination& light) {
+  if (light.sky != SkyModel::kPerez) return SkyRadiance(light.sky);
+  return SkyRadiance(PerezSky{light.to_sun, light.sky_clearness, light.sky_brightness});
+}
 
 Illumination checked(Illumination light, std::size_t band_count) {
   if (!is_finite(light.to_sun)) throw_invalid("illumination.to_sun", "is not finite", "a direction");
@@ -30,6 +44,7 @@ Illumination checked(Illumination light, std::size_t band_count) {
     check_strength(light.bands[b].beam_normal_w_m2, where + "beam_normal_w_m2");
     check_strength(light.bands[b].diffuse_horizontal_w_m2, where + "diffuse_horizontal_w_m2");
   }
+  if (light.sky == SkyModel::kPerez) check_weather(light);
   return light;
 }
 

@@ -82,12 +82,18 @@ PerezShape perez_shape(const PerezSky& sky) {
   return shape;
 }
 
-double perez_relative_radiance(const PerezShape& shape, double cos_zenith, double cos_to_sun) {
+double perez_gradation(const PerezShape& shape, double cos_zenith) {
   constexpr double kHorizon = 1e-6;  // exp(b / cos) is 0 there, as b <= -0.05
-  const double gradation = 1.0 + shape.a * std::exp(shape.b / std::max(cos_zenith, kHorizon));
+  return std::max(0.0, 1.0 + shape.a * std::exp(shape.b / std::max(cos_zenith, kHorizon)));
+}
+
+double perez_halo(const PerezShape& shape, double cos_to_sun) {
   const double cosine = std::clamp(cos_to_sun, -1.0, 1.0);
-  const double halo = 1.0 + shape.c * std::exp(shape.d * std::acos(cosine)) + shape.e * cosine * cosine;
-  return std::max(gradation, 0.0) * std::max(halo, 0.0);
+  return std::max(0.0, 1.0 + shape.c * std::exp(shape.d * std::acos(cosine)) + shape.e * cosine * cosine);
+}
+
+double perez_relative_radiance(const PerezShape& shape, double cos_zenith, double cos_to_sun) {
+  return perez_gradation(shape, cos_zenith) * perez_halo(shape, cos_to_sun);
 }
 
 }  // namespace sunfleck

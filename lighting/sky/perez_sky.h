@@ -40,7 +40,9 @@ struct PerezShape {
   double a, b, c, d, e;
 };
 PerezShape perez_shape(const PerezSky& sky);
-// Not normalised; >= 0 and finite for every unit direction with z >= 0.
+// Not normalised; the product of its two factors, both >= 0 and finite for every direction with z >= 0.
+double perez_gradation(const PerezShape& shape, double cos_zenith);
+double perez_halo(const PerezShape& shape, double cos_to_sun);
 double perez_relative_radiance(const PerezShape& shape, double cos_zenith, double cos_to_sun);
 
 }  // namespace sunfleck

@@ -153,15 +153,16 @@ Period parse_period(const std::string& from, const std::string& to, const std::s
 }
 
 RadiationSeries radiation_series(const Place& place, const Period& period, const RadiationTable& table,
-                                 int step_minutes) {
+                                 int step_minutes, const RunControl& control) {
   SUNFLECK_EXPECTS(step_minutes >= 1 && 60 % step_minutes == 0 && period.end_s > period.begin_s);
   const std::vector<RadiationBlock> blocks = blocks_of(table, period);
-  const SunTrack track(blocks.front().begin_s, blocks.back().end_s);
+  const SunTrack track(blocks.front().begin_s, blocks.back().end_s, control);
   RadiationSeries series;
   series.place = place;
   series.period = period;
   double global_j_m2 = 0, extraterrestrial_j_m2 = 0;
   for (const RadiationBlock& block : blocks) {
+    control.check();
     const BlockSun sun = sun_over(block, place, track, 60.0 * step_minutes);
     check_not_too_much(block, sun, table);
     global_j_m2 += block.global_j_m2;

@@ -47,8 +47,8 @@ struct RadiationSeries {
 // `step_minutes` divides 60 (10: the sun moves 2.5 degrees). Throws Error(kInvalidInput): a month, day or
 // hour of the period that the table lacks; a row of more than what arrives outside the atmosphere (months,
 // days) or more than is physically possible (hours; also what a wrong time zone gives at night); a table that
-// adds up to less than any climate (wrong unit). The message names the unit that would fit.
+// adds up to less than any climate (wrong unit). The message names the unit that would fit. kCancelled.
 RadiationSeries radiation_series(const Place& place, const Period& period, const RadiationTable& table,
-                                 int step_minutes = 10);
+                                 int step_minutes = 10, const RunControl& control = {});
 
 }  // namespace sunfleck

@@ -24,7 +24,8 @@ double daily_diffuse_fraction(double clearness_index, double sunset_hour_angle_r
   const double k = std::clamp(clearness_index, 0.0, 1.0);
   if (sunset_hour_angle_rad <= kWinterSunsetRad)
     return k < 0.715 ? 1.0 + k * (-0.2727 + k * (2.4495 + k * (-11.9514 + k * 9.3879))) : 0.143;
-  return k < 0.722 ? 1.0 + k * (0.2832 + k * (-2.5557 + k * 0.8448)) : 0.175;
+  // The summer curve rises to 1.008 at k = 0.06: there all is diffuse.
+  return k < 0.722 ? std::min(1.0, 1.0 + k * (0.2832 + k * (-2.5557 + k * 0.8448))) : 0.175;
 }
 
 double monthly_diffuse_fraction(double clearness_index, double sunset_hour_angle_rad) {

@@ -119,8 +119,12 @@ std::vector<double> patch_radiance(const PerezSky& sky, const HemisphereGrid& gr
                                    const HemisphereGrid::Points& points) {
   const PerezShape shape = perez_shape(sky);
   const Vec3 to_sun = lifted_to_horizon(sky.to_sun);
-  return patch_means(grid, points,
-                     [&](const Vec3& v) { return perez_relative_radiance(shape, v.z, glm::dot(v, to_sun)); });
+  // Neighbouring points share their height: its exponential is kept until the height changes.
+  double z = -1, gradation = 0;
+  return patch_means(grid, points, [&](const Vec3& v) {
+    if (v.z != z) gradation = perez_gradation(shape, z = v.z);
+    return gradation * perez_halo(shape, glm::dot(v, to_sun));
+  });
 }
 
 }  // namespace sunfleck

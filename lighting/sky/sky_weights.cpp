@@ -116,24 +116,42 @@ class SkySum {
 
   std::vector<double> over(std::span<const SunStep> steps) const {
     std::vector<double> sum(grid_.size(), 0.0);
-    double round_j_m2 = 0;
-    for (const SunStep& step : steps) {
-      if (!(step.diffuse_horizontal_j_m2 > 0.0)) continue;
-      if (model_ == SkyModel::kPerez) {
-        const auto radiance = patch_radiance(weather_of(step), grid_, points_);
-        for (std::size_t p = 0; p < sum.size(); ++p) sum[p] += step.diffuse_horizontal_j_m2 * radiance[p];
-      } else {
-        round_j_m2 += step.diffuse_horizontal_j_m2;
+    if (model_ == SkyModel::kPerez) {
+      for (std::size_t first = 0; first < steps.size();) {
+        const std::size_t last = end_of_run(steps, first);
+        add_weather(steps.subspan(first, last - first), sum);
+        first = last;
       }
+      return sum;
     }
-    for (std::size_t p = 0; p < round_.size(); ++p) sum[p] = round_j_m2 * round_[p];
+    double diffuse_j_m2 = 0;
+    for (const SunStep& step : steps) diffuse_j_m2 += step.diffuse_horizontal_j_m2;
+    for (std::size_t p = 0; p < sum.size(); ++p) sum[p] = diffuse_j_m2 * round_[p];
     return sum;
   }
 
  private:
-  static PerezSky weather_of(const SunStep& step) {
-    return perez_sky(step.to_sun, step.beam_normal_j_m2, step.diffuse_horizontal_j_m2,
-                     step.extraterrestrial_normal_w_m2 * step.duration_s);
+  // Steps of at most half an hour share one sky: the sun moves 7.5 degrees, less than a patch.
+  static std::size_t end_of_run(std::span<const SunStep> steps, std::size_t first) {
+    constexpr double kRunS = 1800.0 - 1e-3;
+    std::size_t last = first + 1;
+    while (last < steps.size() && steps[last].middle_s - steps[first].middle_s < kRunS) ++last;
+    return last;
+  }
+
+  void add_weather(std::span<const SunStep> run, std::vector<double>& sum) const {
+    double beam = 0, diffuse = 0, extraterrestrial = 0;
+    Vec3 to_sun(0.0);
+    for (const SunStep& step : run) {
+      beam += step.beam_normal_j_m2;
+      diffuse += step.diffuse_horizontal_j_m2;
+      extraterrestrial += step.extraterrestrial_normal_w_m2 * step.duration_s;
+      to_sun += step.diffuse_horizontal_j_m2 * step.to_sun;
+    }
+    if (!(diffuse > 0.0)) return;
+    const auto radiance =
+        patch_radiance(perez_sky(glm::normalize(to_sun), beam, diffuse, extraterrestrial), grid_, points_);
+    for (std::size_t p = 0; p < sum.size(); ++p) sum[p] += diffuse * radiance[p];
   }
 
   const HemisphereGrid& grid_;

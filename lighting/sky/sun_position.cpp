@@ -149,11 +149,12 @@ SunPosition sun_position(const Place& place, const UtcTime& time) {
 }
 
 // Nodes from one day before `begin` to two days after `end`, so that every moment has two on either side.
-SunTrack::SunTrack(double begin_utc_s, double end_utc_s)
+SunTrack::SunTrack(double begin_utc_s, double end_utc_s, const RunControl& control)
     : first_day_(std::floor(begin_utc_s / 86400.0) - 1.0) {
   const auto count = static_cast<std::size_t>(std::floor(end_utc_s / 86400.0) - first_day_) + 3;
   nodes_.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
+    control.check();
     const Geocentric sun = geocentric_sun((first_day_ + static_cast<double>(i)) * 86400.0);
     double right_ascension = sun.right_ascension_rad;
     if (i > 0) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lighting/sky/utc_time.h"
+#include "sim/base/run_control.h"
 #include "sim/base/vec.h"
 
 namespace sunfleck {
@@ -39,7 +40,8 @@ SunPosition sun_position(const Place& place, double utc_s);  // seconds since 20
 // by less than 1e-5 degrees and costs a hundredth. Read-only once made, so threads may share it.
 class SunTrack {
  public:
-  SunTrack(double begin_utc_s, double end_utc_s);
+  // 40 us per day. Throws Error(kCancelled) when stopped.
+  SunTrack(double begin_utc_s, double end_utc_s, const RunControl& control = {});
   SunPosition at(const Place& place, double utc_s) const;  // begin <= utc_s <= end
 
  private:

@@ -14,9 +14,9 @@ Vec3 sun_at(double azimuth_deg, double zenith_deg) {
   return direction_from_azimuth_zenith(radians_from_degrees(azimuth_deg), radians_from_degrees(zenith_deg));
 }
 
-// 96,000 directions of about equal solid angle, not those the normalisation uses.
+// 46,000 directions of about equal solid angle, not those the normalisation uses.
 const HemisphereGrid::Points& fine_points() {
-  static const auto points = HemisphereGrid::equal_area(3.0).points(7, 6);
+  static const auto points = HemisphereGrid::equal_area(3.0).points(5, 4);
   return points;
 }
 
