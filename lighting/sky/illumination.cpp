@@ -12,18 +12,20 @@ void check_strength(double value, const std::string& where) {
     throw_invalid(where, "is not a number >= 0", "an irradiance in W m-2");
 }
 
-}  // namespace
-
-std::string to_string(SkyModel model) {
-  return model == SkyModel::kUniform ? "uniform" : "standard_overcast";
+void check_weather(const Illumination& light) {
+  if (!(light.sky_clearness >= 1.0 && std::isfinite(light.sky_clearness)))
+    throw_invalid("illumination.sky_clearness", "is not a number >= 1",
+                  "1 for overcast, above 6.2 for clear");
+  if (!(light.sky_brightness >= 0.0 && light.sky_brightness <= 1.0))
+    throw_invalid("illumination.sky_brightness", "is outside [0, 1]",
+                  "0.05 for a dark sky to 0.6 for a bright one");
 }
 
-double relative_sky_radiance(SkyModel model, double cos_zenith) {
-  if (!(cos_zenith > 0.0)) return 0.0;
-  // Both integrate to 1 over the cosine-weighted hemisphere: pi L = 1, and Lz * 7 pi / 9 = 1 with L = Lz
-  // (1+2c)/3.
-  if (model == SkyModel::kUniform) return 1.0 / kPi;
-  return (9.0 / (7.0 * kPi)) * (1.0 + 2.0 * cos_zenith) / 3.0;
+}  // namespace
+
+SkyRadiance sky_radiance(const Illumination& light) {
+  if (light.sky != SkyModel::kPerez) return SkyRadiance(light.sky);
+  return SkyRadiance(PerezSky{light.to_sun, light.sky_clearness, light.sky_brightness});
 }
 
 Illumination checked(Illumination light, std::size_t band_count) {
@@ -42,6 +44,7 @@ Illumination checked(Illumination light, std::size_t band_count) {
     check_strength(light.bands[b].beam_normal_w_m2, where + "beam_normal_w_m2");
     check_strength(light.bands[b].diffuse_horizontal_w_m2, where + "diffuse_horizontal_w_m2");
   }
+  if (light.sky == SkyModel::kPerez) check_weather(light);
   return light;
 }
 

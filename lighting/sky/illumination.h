@@ -4,18 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "lighting/sky/sky_radiance.h"
 #include "sim/base/vec.h"
 
 namespace sunfleck {
-
-enum class SkyModel {
-  kUniform,          // the same radiance from everywhere above the horizon
-  kStandardOvercast  // L = Lz (1 + 2 cos zenith) / 3, Moon and Spencer 1942
-};
-std::string to_string(SkyModel model);  // "uniform", "standard_overcast"
-
-// Radiance of the sky for a diffuse irradiance of 1 on a horizontal plane, 1/sr; 0 at and below the horizon.
-double relative_sky_radiance(SkyModel model, double cos_zenith);
 
 // Strengths of one band.
 struct BandLight {
@@ -28,13 +20,20 @@ struct Illumination {
   double sun_half_angle_rad = 0;  // 0: a point; the real sun 0.265 degrees
   SkyModel sky = SkyModel::kUniform;
   std::vector<BandLight> bands;  // one per band of the OpticsTable
+  // Of SkyModel::kPerez only (perez_sky.h): 1 overcast to above 6.2 clear; 0.05 dark to 0.6 bright. Of
+  // measured radiation: perez_sky().
+  double sky_clearness = 1;
+  double sky_brightness = 0.2;
 
   bool sun_is_up() const { return to_sun.z > 0.0; }
 };
 
+// The sky of an illumination as a function of direction, for a diffuse irradiance of 1.
+SkyRadiance sky_radiance(const Illumination& light);
+
 // Throws Error(kInvalidInput) naming "illumination.<field>": to_sun not finite or of length 0 (else it is
 // returned normalised), strengths negative or not finite, number of bands wrong, half angle outside [0, 5]
-// degrees.
+// degrees; with a Perez sky clearness below 1 or brightness outside [0, 1].
 Illumination checked(Illumination light, std::size_t band_count);
 
 }  // namespace sunfleck

@@ -96,6 +96,9 @@ TEST(Illumination, IsNormalisedOrRefusedWithItsField) {
       {{.sun_half_angle_rad = -1, .bands = {{1, 1}}}, "illumination.sun_half_angle_deg"},
       {{.bands = {}}, "illumination.bands"},
       {{.bands = {{-1, 1}}}, "illumination.bands[0].beam_normal_w_m2"},
+      {{.sky = SkyModel::kPerez, .bands = {{1, 1}}, .sky_clearness = 0.5}, "illumination.sky_clearness"},
+      {{.sky = SkyModel::kPerez, .bands = {{1, 1}}, .sky_clearness = nan}, "illumination.sky_clearness"},
+      {{.sky = SkyModel::kPerez, .bands = {{1, 1}}, .sky_brightness = -1}, "illumination.sky_brightness"},
       {{.bands = {{1, nan}}}, "illumination.bands[0].diffuse_horizontal_w_m2"},
   };
   for (const Bad& bad : table) {
@@ -107,6 +110,17 @@ TEST(Illumination, IsNormalisedOrRefusedWithItsField) {
       EXPECT_FALSE(error.remedy().empty());
     }
   }
+}
+
+TEST(Illumination, HasTheSkyOfItsModel) {
+  const Vec3 up(0, 0, 1), aside = direction_from_azimuth_zenith(1, 1);
+  Illumination light{.to_sun = aside, .bands = {{1, 1}}, .sky_clearness = 7, .sky_brightness = 0.1};
+  EXPECT_EQ(sky_radiance(light).radiance(up), 1 / kPi);
+  light.sky = SkyModel::kStandardOvercast;
+  EXPECT_EQ(sky_radiance(light).radiance(up), relative_sky_radiance(light.sky, 1.0));
+  light.sky = SkyModel::kPerez;
+  EXPECT_GT(sky_radiance(light).radiance(aside), 3 * sky_radiance(light).radiance(up));
+  EXPECT_EQ(to_string(light.sky), "perez");
 }
 
 }  // namespace
