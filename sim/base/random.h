@@ -28,7 +28,10 @@ enum class RandomPurpose : std::uint32_t {
   kProbeDraw,
   kProbePaths,
   kProbeSun,
-  kProbeResampling
+  kProbeResampling,
+  kStandRays,
+  kStandBounces,
+  kSensorRays
 };
 
 // One stream of numbers: (seed, element, purpose) names it, next() walks it. Cheap to make, copy and skip.
