@@ -29,6 +29,10 @@ enum class RandomPurpose : std::uint32_t {
   kProbePaths,
   kProbeSun,
   kProbeResampling,
+  kSunRaster = 16,
+  kStandRays = 20,
+  kStandBounces,
+  kSensorRays,
   kSurroundings = 40,
   kClumps
 };

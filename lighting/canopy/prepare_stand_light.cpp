@@ -1,0 +1,84 @@
+// The first step of stand_light.h: rays.
+#include <algorithm>
+#include <cmath>
+
+#include "lighting/canopy/stand_light.h"
+#include "sim/base/error.h"
+#include "sim/base/random.h"
+
+namespace sunfleck {
+
+namespace {
+
+void check(const StandLightRequest& r) {
+  if (!(r.rays_per_cell > 0.0 && r.rays_per_cell <= 1e7))
+    throw_invalid("stand_light.rays_per_cell", std::to_string(r.rays_per_cell) + " is out of range",
+                  "more than 0, at most 10,000,000");
+  if (!(r.potential_share > 0.0 && r.potential_share <= 1.0))
+    throw_invalid("stand_light.potential_share", std::to_string(r.potential_share) + " is out of range",
+                  "more than 0, at most 1");
+  for (const int rays : {r.sensor_sun_rays, r.sensor_sky_rays})
+    if (rays < 1 || rays > 100'000)
+      throw_invalid("stand_light.sensor_rays", std::to_string(rays) + " is out of range", "1 to 100,000");
+}
+
+// Energy that each direction brings to the ground over all intervals.
+std::vector<double> ground_energy(const LightSource& source, const StandGround& ground) {
+  std::vector<double> energy = total_strength(source);
+  for (std::size_t d = 0; d < energy.size(); ++d) energy[d] *= ground.facing(source.to_source[d]);
+  return energy;
+}
+
+// Half of the rays by energy, half evenly over the directions that bring any.
+std::vector<double> share_out(const std::vector<double>& energy, double total_energy, double directions,
+                              double rays) {
+  std::vector<double> out(energy.size(), 0.0);
+  for (std::size_t d = 0; d < energy.size(); ++d)
+    if (energy[d] > 0.0) out[d] = std::max(1.0, rays * 0.5 * (energy[d] / total_energy + 1.0 / directions));
+  return out;
+}
+
+}  // namespace
+
+DirectionalBasis prepare_stand_light(const StandScene& scene, const OpticsTable& optics,
+                                     const StandLightRequest& request, const RunControl& control) {
+  check(request);
+  DirectionalBasis basis;
+  basis.sky = checked(request.sky);
+  basis.sensors = checked(request.sensors, scene);
+  const auto sun = ground_energy(basis.sky.sun, scene.ground());
+  const auto sky = ground_energy(basis.sky.sky, scene.ground());
+  double total = 0.0, directions = 0.0;
+  for (const auto* energies : {&sun, &sky})
+    for (const double e : *energies) {
+      total += e;
+      directions += e > 0.0 ? 1.0 : 0.0;
+    }
+  const double rays = request.rays_per_cell * static_cast<double>(scene.ground().count());
+  const auto options = [&](const std::vector<double>& energy, double share, std::uint64_t part) {
+    return DropOptions{mix_seed(request.seed, part), share_out(energy, total, directions, share * rays),
+                       request.scattering};
+  };
+  basis.from_sun = drop_light(scene, optics, basis.sky.sun, options(sun, 1.0, 1), control);
+  basis.from_sky = drop_light(scene, optics, basis.sky.sky, options(sky, 1.0, 2), control);
+  if (request.potential) {
+    const double share = request.potential_share;
+    basis.potential_sun_m2 = crown_potential(scene, basis.sky.sun, options(sun, share, 1), control);
+    basis.potential_sky_m2 = crown_potential(scene, basis.sky.sky, options(sky, share, 2), control);
+  }
+  basis.sensors_sun = sensor_response(scene, basis.sensors, basis.sky.sun, request.sensor_sun_rays,
+                                      mix_seed(request.seed, 3), control);
+  basis.sensors_sky = sensor_response(scene, basis.sensors, basis.sky.sky, request.sensor_sky_rays,
+                                      mix_seed(request.seed, 4), control);
+  if (request.canopy_views) basis.canopy = sensor_canopy(scene, basis.sensors, request.canopy, control);
+  return basis;
+}
+
+StandLight stand_light(const StandScene& scene, const OpticsTable& optics, const StandLightRequest& request,
+                       const RunControl& control) {
+  const DirectionalBasis basis = prepare_stand_light(scene, optics, request, control);
+  return stand_light(scene, basis, basis.sky.sun.strength, basis.sky.sky.strength, basis.sky.intervals,
+                     control);
+}
+
+}  // namespace sunfleck
