@@ -41,6 +41,8 @@ DropRays::DropRays(const StandScene& scene, const Vec3& to_source, double half_a
   const double facing = scene.ground().facing(to_source);
   if (!(facing > 0.0)) return;
   cover(scene);
+  const double off_normal = std::acos(std::min(1.0, glm::dot(to_source, scene.ground().normal)));
+  most_facing_ = std::cos(std::max(0.0, off_normal - half_angle_rad)) / scene.ground().normal.z;
   const Vec2 map_m = scene.ground().size_m();
   const double area_m2 = size_m_.x * size_m_.y;
   count_ = static_cast<std::size_t>(std::max(1.0, std::round(rays_on_map * area_m2 / (map_m.x * map_m.y))));
@@ -80,16 +82,24 @@ bool DropRays::is_near(const Vec3& aim_m) const {
          aim_m.y < box.hi.y + margin;
 }
 
+// Rays carry the same energy per ground area, so that directions of the cone come as often as they are high:
+// light from them falls on the ground in proportion to facing().
+Vec3 DropRays::from_cone(RandomStream& random) const {
+  const StandGround& ground = scene_.ground();
+  for (int tries = 0; tries < 64; ++tries) {
+    const Vec3 towards = trace::cone_direction(to_source_, half_angle_rad_, random);
+    const double facing = ground.facing(towards);
+    if (facing > 1e-3 && random.uniform() * most_facing_ < facing) return towards;
+  }
+  return to_source_;
+}
+
 DropRay DropRays::ray(std::size_t i, RandomStream& random) const {
   const double n = static_cast<double>(i);
   const Vec2 aim = lo_m_ + size_m_ * Vec2(fraction(shift_.x + n * kStepX), fraction(shift_.y + n * kStepY));
   DropRay ray;
   ray.aim_m = {aim, scene_.forest().terrain.height_at(aim.x, aim.y)};
-  Vec3 towards = to_source_;
-  if (half_angle_rad_ > 0.0) {
-    towards = trace::cone_direction(to_source_, half_angle_rad_, random);
-    if (!(scene_.ground().facing(towards) > 1e-3)) towards = to_source_;  // no light through the horizon
-  }
+  const Vec3 towards = half_angle_rad_ > 0.0 ? from_cone(random) : to_source_;
   ray.direction = -towards;
   const Vec3& normal = scene_.ground().normal;
   if (scene_.ground().periodic) {

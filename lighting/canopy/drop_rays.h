@@ -35,6 +35,7 @@ class DropRays {
 
  private:
   void cover(const StandScene& scene);
+  Vec3 from_cone(RandomStream& random) const;
   bool is_near(const Vec3& aim_m) const;
 
   const StandScene& scene_;
@@ -43,7 +44,7 @@ class DropRays {
   Vec2 lo_m_{0}, size_m_{0};  // of the ground aimed at
   Vec2 shift_{0};             // of the even pattern, [0, 1)
   std::size_t count_ = 0;
-  double quantum_m2_ = 0;
+  double quantum_m2_ = 0, most_facing_ = 1;
 };
 
 }  // namespace sunfleck
