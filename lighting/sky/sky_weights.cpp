@@ -182,6 +182,7 @@ SkyWeights sky_weights(const RadiationSeries& series, const SkyWeightOptions& op
   SkyWeights weights;
   weights.sky = grid.directions();
   weights.to_sun = std::move(bins.to_sun);
+  weights.sun_half_angle_rad = std::move(bins.half_angle_rad);
   weights.bin_spread_deg = bins.spread_deg;
   if (options.finest == IntervalKind::kHour) {
     weights.hours = std::move(fine);

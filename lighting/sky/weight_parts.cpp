@@ -62,15 +62,22 @@ SunBins sun_bins(const RadiationSeries& series, double bin_deg) {
     compact[p] = static_cast<std::uint32_t>(bins.to_sun.size());
     bins.to_sun.push_back(glm::normalize(energy[p]));
   }
-  double square = 0, total = 0;
+  // Mean squares of the angle between the sun and its bin; an even disc of radius R has R^2 / 2.
+  std::vector<double> square(bins.to_sun.size(), 0.0), total(bins.to_sun.size(), 0.0);
   for (std::size_t i = 0; i < series.steps.size(); ++i) {
     if (bins.bin_of_step[i] == kNoBin) continue;
-    bins.bin_of_step[i] = compact[bins.bin_of_step[i]];
-    const Vec3 apart = series.steps[i].to_sun - bins.to_sun[bins.bin_of_step[i]];
-    square += series.steps[i].beam_normal_j_m2 * glm::dot(apart, apart);
-    total += series.steps[i].beam_normal_j_m2;
+    const std::uint32_t bin = bins.bin_of_step[i] = compact[bins.bin_of_step[i]];
+    const Vec3 apart = series.steps[i].to_sun - bins.to_sun[bin];
+    square[bin] += series.steps[i].beam_normal_j_m2 * glm::dot(apart, apart);
+    total[bin] += series.steps[i].beam_normal_j_m2;
   }
-  bins.spread_deg = total > 0.0 ? degrees_from_radians(std::sqrt(square / total)) : 0.0;
+  double all_square = 0, all = 0;
+  for (std::size_t b = 0; b < bins.to_sun.size(); ++b) {
+    bins.half_angle_rad.push_back(std::sqrt(2.0 * square[b] / total[b]));
+    all_square += square[b];
+    all += total[b];
+  }
+  bins.spread_deg = all > 0.0 ? degrees_from_radians(std::sqrt(all_square / all)) : 0.0;
   return bins;
 }
 

@@ -15,7 +15,8 @@ inline constexpr std::uint32_t kNoBin = std::numeric_limits<std::uint32_t>::max(
 // Which bin each step of the series belongs to (kNoBin where there is no beam); only bins with energy are
 // kept.
 struct SunBins {
-  std::vector<Vec3> to_sun;  // energy-weighted mean direction
+  std::vector<Vec3> to_sun;            // energy-weighted mean direction
+  std::vector<double> half_angle_rad;  // of an even cone as wide as the sun's places in the bin
   std::vector<std::uint32_t> bin_of_step;
   double spread_deg = 0;  // energy-weighted RMS angle between the sun and its bin
 };
