@@ -136,6 +136,9 @@ TEST(SkyWeights, SunBinsFollowTheSunThroughGapsAndCanopies) {
   };
   const SkyWeights w = sky_weights(series, {});
   EXPECT_LT(w.bin_spread_deg, 1.0);
+  ASSERT_EQ(w.sun_half_angle_rad.size(), w.to_sun.size());
+  // A bin of 2.5 degrees is a disc of 1.41 degrees; its corners reach 1.8, and low bins are longer than wide.
+  for (const double half_angle : w.sun_half_angle_rad) EXPECT_LT(degrees_from_radians(half_angle), 3.0);
   for (const Case& c : cases) {
     double exact = 0;
     for (const SunStep& s : series.steps)
@@ -145,6 +148,44 @@ TEST(SkyWeights, SunBinsFollowTheSunThroughGapsAndCanopies) {
         << c.name;
     RecordProperty(c.name, std::to_string((binned - exact) / series.direct_horizontal_j_m2));
   }
+}
+
+// Canopies with gaps of about 10 degrees, half open: direct light of a season, RMS error over 40 of them,
+// when each bin is asked at its middle and when the response is averaged over 16 directions of its cone.
+// Measured: 2.0 and 0.5 % at 5 degrees.
+TEST(SkyWeights, AveragingOverTheConesOfBinsMakesGapsSmooth) {
+  const RadiationSeries series = season();
+  const SkyWeights w = sky_weights(series, {.bin_deg = 5, .finest = IntervalKind::kPeriod});
+  double at_middle = 0, over_cone = 0;
+  for (int k = 0; k < 40; ++k) {
+    const double wave = 20 + 7 * std::sin(1.3 * k);
+    const Response gaps = [&](const Vec3& v) {
+      return std::sin(wave * v.x + 0.7 * k) + std::sin(wave * v.y + 2.1 * k) > 0.2 ? v.z : 0.0;
+    };
+    std::vector<double> cone(w.to_sun.size(), 0.0);
+    for (std::size_t b = 0; b < w.to_sun.size(); ++b) {
+      const Basis across = basis_around(w.to_sun[b]);
+      for (int r = 0; r < 16; ++r) {
+        const double radius = w.sun_half_angle_rad[b] * std::sqrt((r + 0.5) / 16);
+        const double turn = 2.399963 * r + static_cast<double>(b);  // golden angle
+        cone[b] += gaps(glm::normalize(w.to_sun[b] + radius * (std::cos(turn) * across.tangent +
+                                                               std::sin(turn) * across.bitangent))) /
+                   16;
+      }
+    }
+    double exact = 0;
+    for (const SunStep& s : series.steps)
+      if (s.beam_normal_j_m2 > 0) exact += s.beam_normal_j_m2 * gaps(s.to_sun);
+    const SparseRows& beam = w.period.beam_normal_j_m2;
+    at_middle += std::pow((beam.dot(0, sun_response(w, gaps)) - exact) / series.direct_horizontal_j_m2, 2);
+    over_cone += std::pow((beam.dot(0, cone) - exact) / series.direct_horizontal_j_m2, 2);
+  }
+  at_middle = std::sqrt(at_middle / 40);
+  over_cone = std::sqrt(over_cone / 40);
+  EXPECT_LT(over_cone, 0.008);
+  EXPECT_LT(over_cone, 0.5 * at_middle);
+  RecordProperty("at_middle", std::to_string(at_middle));
+  RecordProperty("over_cone", std::to_string(over_cone));
 }
 
 // Patches of an all-weather sky over a month against every step's own radiance through a canopy.
