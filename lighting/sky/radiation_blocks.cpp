@@ -27,7 +27,7 @@ RadiationBlock block_of(const RadiationTable& table, const RadiationRow& row, do
   return {begin_s, end_s, table.is_power ? row.global * (end_s - begin_s) : row.global, &row};
 }
 
-std::vector<RadiationBlock> month_blocks(const RadiationTable& table, const Period& period) {
+std::vector<RadiationBlock> month_blocks(const RadiationTable& table, const TimeSpan& period) {
   std::vector<RadiationBlock> blocks;
   CivilDate date = date_of_day(local_day(period.begin_s, period.offset_minutes));
   date.day = 1;
@@ -43,7 +43,7 @@ std::vector<RadiationBlock> month_blocks(const RadiationTable& table, const Peri
   return blocks;
 }
 
-std::vector<RadiationBlock> day_blocks(const RadiationTable& table, const Period& period) {
+std::vector<RadiationBlock> day_blocks(const RadiationTable& table, const TimeSpan& period) {
   std::vector<RadiationBlock> blocks;
   for (int day = local_day(period.begin_s, period.offset_minutes);; ++day) {
     const double begin_s = day_begin_s(day, period.offset_minutes);
@@ -55,7 +55,7 @@ std::vector<RadiationBlock> day_blocks(const RadiationTable& table, const Period
   }
 }
 
-std::vector<RadiationBlock> time_blocks(const RadiationTable& table, const Period& period) {
+std::vector<RadiationBlock> time_blocks(const RadiationTable& table, const TimeSpan& period) {
   constexpr double kSlackS = 1e-3;
   std::vector<RadiationBlock> blocks;
   double covered_s = period.begin_s;
@@ -73,7 +73,7 @@ std::vector<RadiationBlock> time_blocks(const RadiationTable& table, const Perio
 
 }  // namespace
 
-std::vector<RadiationBlock> blocks_of(const RadiationTable& table, const Period& period) {
+std::vector<RadiationBlock> blocks_of(const RadiationTable& table, const TimeSpan& period) {
   switch (table.per) {
     case RadiationPer::kMonth:
       return month_blocks(table, period);

@@ -15,7 +15,7 @@ struct RadiationBlock {
 };
 
 // Blocks that cover the period without gaps, in the order of time. Throws at the table's name for what lacks.
-std::vector<RadiationBlock> blocks_of(const RadiationTable& table, const Period& period);
+std::vector<RadiationBlock> blocks_of(const RadiationTable& table, const TimeSpan& period);
 
 // The sun and radiation outside the atmosphere over a block's steps.
 struct BlockSun {

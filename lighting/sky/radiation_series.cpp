@@ -142,7 +142,7 @@ BlockSun sun_over(const RadiationBlock& block, const Place& place, const SunTrac
   return result;
 }
 
-Period parse_period(const std::string& from, const std::string& to, const std::string& where) {
+TimeSpan parse_period(const std::string& from, const std::string& to, const std::string& where) {
   const ZonedTime begin = parse_zoned_time(from, where + ".from"), end = parse_zoned_time(to, where + ".to");
   if (!(end.utc_s > begin.utc_s))
     throw_invalid(where + ".to", "'" + to + "' is not after '" + from + "'", "the end of the period");
@@ -152,7 +152,7 @@ Period parse_period(const std::string& from, const std::string& to, const std::s
   return {begin.utc_s, end.utc_s, begin.offset_minutes};
 }
 
-RadiationSeries radiation_series(const Place& place, const Period& period, const RadiationTable& table,
+RadiationSeries radiation_series(const Place& place, const TimeSpan& period, const RadiationTable& table,
                                  int step_minutes, const RunControl& control) {
   SUNFLECK_EXPECTS(step_minutes >= 1 && 60 % step_minutes == 0 && period.end_s > period.begin_s);
   const std::vector<RadiationBlock> blocks = blocks_of(table, period);

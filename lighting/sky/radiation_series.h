@@ -18,13 +18,13 @@
 namespace sunfleck {
 
 // [begin, end) of a local clock.
-struct Period {
+struct TimeSpan {
   double begin_s = 0, end_s = 0;  // seconds since 2000-01-01T00:00 UTC
   int offset_minutes = 0;         // whose days and months count: that of `from`
 };
 // Throws Error(kInvalidInput) at "<where>.from" or "<where>.to": no time, no time zone, `to` not after
 // `from`, more than 20 years.
-Period parse_period(const std::string& from, const std::string& to, const std::string& where);
+TimeSpan parse_period(const std::string& from, const std::string& to, const std::string& where);
 
 // Radiation of one step. Energies are of the step's part within the period.
 struct SunStep {
@@ -37,7 +37,7 @@ struct SunStep {
 
 struct RadiationSeries {
   Place place;
-  Period period;
+  TimeSpan period;
   std::vector<SunStep> steps;  // in the order of time; those without energy are left out
   double direct_horizontal_j_m2 = 0, diffuse_horizontal_j_m2 = 0;  // of the period
   double moved_to_diffuse_j_m2 = 0;             // of it: beam beyond what measurements show
@@ -48,7 +48,7 @@ struct RadiationSeries {
 // hour of the period that the table lacks; a row of more than what arrives outside the atmosphere (months,
 // days) or more than is physically possible (hours; also what a wrong time zone gives at night); a table that
 // adds up to less than any climate (wrong unit). The message names the unit that would fit. kCancelled.
-RadiationSeries radiation_series(const Place& place, const Period& period, const RadiationTable& table,
+RadiationSeries radiation_series(const Place& place, const TimeSpan& period, const RadiationTable& table,
                                  int step_minutes = 10, const RunControl& control = {});
 
 }  // namespace sunfleck

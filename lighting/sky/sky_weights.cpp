@@ -135,7 +135,7 @@ SparseRows summed_rows(const SparseRows& fine, const std::vector<std::size_t>& f
 }
 
 // Rows of `fine` added up to a coarser kind.
-IntervalWeights summed(const IntervalWeights& fine, IntervalKind kind, const Period& period,
+IntervalWeights summed(const IntervalWeights& fine, IntervalKind kind, const TimeSpan& period,
                        const SkyWeights& basis) {
   IntervalWeights weights;
   weights.kind = kind;

@@ -7,7 +7,7 @@ namespace sunfleck {
 namespace {
 
 // Begin of the interval after the one that holds `time_s`.
-double next_begin_s(IntervalKind kind, const Period& period, double time_s) {
+double next_begin_s(IntervalKind kind, const TimeSpan& period, double time_s) {
   const int day = local_day(time_s, period.offset_minutes);
   const double midnight_s = day_begin_s(day, period.offset_minutes);
   switch (kind) {
@@ -27,7 +27,7 @@ double next_begin_s(IntervalKind kind, const Period& period, double time_s) {
   return period.end_s;
 }
 
-std::string label_of(IntervalKind kind, const Period& period, double begin_s) {
+std::string label_of(IntervalKind kind, const TimeSpan& period, double begin_s) {
   const std::string time = local_time_text(begin_s, period.offset_minutes);
   switch (kind) {
     case IntervalKind::kPeriod:
@@ -81,7 +81,7 @@ SunBins sun_bins(const RadiationSeries& series, double bin_deg) {
   return bins;
 }
 
-std::vector<WeightInterval> intervals_of(IntervalKind kind, const Period& period) {
+std::vector<WeightInterval> intervals_of(IntervalKind kind, const TimeSpan& period) {
   std::vector<WeightInterval> intervals;
   for (double begin_s = period.begin_s; begin_s < period.end_s;) {
     const double end_s = std::min(period.end_s, next_begin_s(kind, period, begin_s));

@@ -23,6 +23,6 @@ struct SunBins {
 SunBins sun_bins(const RadiationSeries& series, double bin_deg);
 
 // The intervals of one kind that cover a period, in the order of time; the first and last may be cut.
-std::vector<WeightInterval> intervals_of(IntervalKind kind, const Period& period);
+std::vector<WeightInterval> intervals_of(IntervalKind kind, const TimeSpan& period);
 
 }  // namespace sunfleck

@@ -44,11 +44,10 @@ std::vector<std::string> labels(const IntervalWeights& weights) {
 }
 
 // Light of a bin or patch arrives evenly from a cone of its size.
-StandSky stand_sky(const SkyWeights& weights, const IntervalWeights& which, double bin_deg) {
+StandSky stand_sky(const SkyWeights& weights, const IntervalWeights& which) {
   StandSky sky;
   sky.sun.to_source = weights.to_sun;
-  sky.sun.half_angle_rad.assign(weights.to_sun.size(),
-                                cone_half_angle_rad(std::pow(radians_from_degrees(bin_deg), 2)));
+  sky.sun.half_angle_rad = weights.sun_half_angle_rad;
   sky.sun.strength = sun_rows(which);
   sky.sky.to_source = weights.sky.to_source;
   for (const double sr : weights.sky.solid_angle_sr)
@@ -121,8 +120,8 @@ void study_by_rays(const Forest& forest, const SkyWeights& weights, const RunCon
   std::optional<DirectionalBasis> basis;
   {
     const StageTimer timer(study.provenance, "light from each direction");
-    basis = prepare_stand_light(
-        *scene, optics, light_request(spec, stand_sky(weights, weights.period, spec.bin_deg)), control);
+    basis =
+        prepare_stand_light(*scene, optics, light_request(spec, stand_sky(weights, weights.period)), control);
   }
   const StageTimer timer(study.provenance, "summing intervals");
   const auto sum = [&](const IntervalWeights& which) {
@@ -140,8 +139,7 @@ void study_by_boxes(const Forest& forest, const SkyWeights& weights, const RunCo
   options.seed = spec.seed;
   const StageTimer timer(study.provenance, "light through boxes");
   const WorldPrepared prepared = prepare_world_light(forest, options, control);
-  study.world = world_light(forest, prepared,
-                            stand_sky(weights, parts_of(weights, spec.intervals), spec.bin_deg), control);
+  study.world = world_light(forest, prepared, stand_sky(weights, parts_of(weights, spec.intervals)), control);
   if (!spec.sensors.empty())
     study.provenance.notes.push_back("sensors need engine = \"rays\": none are in this answer");
 }

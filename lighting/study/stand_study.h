@@ -29,7 +29,7 @@ std::string to_string(StandEngine engine);  // "auto", "rays", "boxes"
 
 struct StandStudySpec {
   Place place;
-  Period period;
+  TimeSpan period;
   std::filesystem::path radiation;  // see lighting/sky/radiation_table.h
   SkyModel sky = SkyModel::kStandardOvercast;
   IntervalKind intervals = IntervalKind::kMonth;  // besides the whole period
@@ -43,7 +43,7 @@ struct StandStudySpec {
   bool canopy_views = true;  // openness, gaps, leaf area at the sensors
   double rays_per_cell = 1500;
   int sensor_sun_rays = 16, sensor_sky_rays = 64;
-  double patch_deg = 6, bin_deg = 2.5;
+  double patch_deg = 6, bin_deg = 5;
   std::uint64_t seed = 1;
 };
 

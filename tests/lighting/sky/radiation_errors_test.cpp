@@ -11,7 +11,7 @@ namespace {
 
 constexpr Place kForest{50.0, 5.2};
 
-Period period(const std::string& from, const std::string& to) { return parse_period(from, to, "period"); }
+TimeSpan period(const std::string& from, const std::string& to) { return parse_period(from, to, "period"); }
 
 const std::string kMonths =
     "month,global_horizontal_mj_m2,diffuse_fraction\n5,528,0.53\n6,578,0.53\n7,591,0.52\n8,487,0.54\n";
@@ -79,7 +79,7 @@ void expect_error(const std::function<void()>& work, const std::string& where, c
 }
 
 TEST(RadiationSeries, WhatCannotBeIsRefusedWithTheUnitThatWouldFit) {
-  const Period june = period("2011-06-01T00:00+01:00", "2011-07-01T00:00+01:00");
+  const TimeSpan june = period("2011-06-01T00:00+01:00", "2011-07-01T00:00+01:00");
   const auto monthly = [&](const std::string& column, const std::string& value) {
     return [=] {
       radiation_series(kForest, june, parse_radiation("month," + column + "\n6," + value + "\n", "t"));
@@ -136,7 +136,7 @@ TEST(RadiationSeries, DatesOutsideTheTableAreSaid) {
   EXPECT_NO_THROW(run(hours, "2011-05-01T10:30Z", "2011-05-01T12:00Z")());
 }
 
-TEST(Period, IsRefusedByItsEnd) {
+TEST(TimeSpan, IsRefusedByItsEnd) {
   const auto refused = [](const char* from, const char* to, const char* where, const char* problem) {
     expect_error([=] { parse_period(from, to, "light.period"); }, where, problem, "");
   };

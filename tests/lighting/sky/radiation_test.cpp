@@ -15,7 +15,7 @@ namespace {
 
 constexpr Place kForest{50.0, 5.2};
 
-Period period(const std::string& from, const std::string& to) { return parse_period(from, to, "period"); }
+TimeSpan period(const std::string& from, const std::string& to) { return parse_period(from, to, "period"); }
 
 const std::string kMonths =
     "month,global_horizontal_mj_m2,diffuse_fraction\n5,528,0.53\n6,578,0.53\n7,591,0.52\n8,487,0.54\n";
