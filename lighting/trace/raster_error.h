@@ -10,8 +10,10 @@ struct SunlitEstimate {
 };
 
 // `looked_up`: at the element's random point, for an element that covers no pixel; negative: unknown, which
-// counts as half.
-SunlitEstimate sunlit_leaf(const SunTally& tally, double looked_up);
+// counts as half. `rim_pixels`: length of the leaf's rim as the sun sees it, in sides of a pixel.
+SunlitEstimate sunlit_leaf(const SunTally& tally, double rim_pixels, double looked_up);
+// That length in metres; to_sun in tree coordinates.
+double rim_seen_m(const FoliageElement& leaf, const Vec3& to_sun);
 SunlitEstimate sunlit_shoot(const SunTally& tally, double looked_up);
 
 // Mean over pictures of an element, each from its own point of the sun's disc.

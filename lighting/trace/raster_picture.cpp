@@ -66,6 +66,18 @@ PicturePainter::PicturePainter(const Forest& forest, const ForestIndex& index, s
   for (const Prototype& p : forest.prototypes) boxes_.push_back(prototype_bounds(p));
 }
 
+Box PicturePainter::bounds() const {
+  Box bounds;
+  for (const Instance& instance : forest_.instances) {
+    const Box& box = boxes_[instance.prototype.value];
+    if (box.empty()) continue;
+    for (int k = 0; k < 8; ++k)
+      bounds.include(world_from_tree(
+          instance, {k & 1 ? box.hi.x : box.lo.x, k & 2 ? box.hi.y : box.lo.y, k & 4 ? box.hi.z : box.lo.z}));
+  }
+  return bounds;
+}
+
 double PicturePainter::records_in(const RasterView& view, const std::vector<PlacedTree>& trees,
                                   const Part& part) const {
   double records = 0.0;
@@ -129,8 +141,9 @@ RasterScene PicturePainter::project(const RasterView& view, const std::vector<Pl
   return scene;
 }
 
-void PicturePainter::paint_part(const RasterView& view, const std::vector<PlacedTree>& trees, const Part& part,
-                                std::uint64_t seed, SunPicture& picture, const RunControl& control) const {
+void PicturePainter::paint_part(const RasterView& view, const std::vector<PlacedTree>& trees,
+                                const Part& part, std::uint64_t seed, SunPicture& picture,
+                                const RunControl& control) const {
   const RasterScene scene = project(view, trees, part, control);
   const RasterBins bins(scene.records, part.box);
   std::vector<std::uint32_t> tiles;
@@ -145,7 +158,8 @@ void PicturePainter::paint_part(const RasterView& view, const std::vector<Placed
   });
 }
 
-SunPicture PicturePainter::paint(const RasterView& view, std::uint64_t seed, const RunControl& control) const {
+SunPicture PicturePainter::paint(const RasterView& view, std::uint64_t seed,
+                                 const RunControl& control) const {
   std::vector<PlacedTree> trees;
   for (std::size_t i = 0; i < forest_.instances.size(); ++i)
     trees.push_back(place_tree(view, forest_, i, boxes_[forest_.instances[i].prototype.value]));

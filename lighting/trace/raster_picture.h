@@ -21,6 +21,8 @@ class PicturePainter {
   // All must outlive the painter. `limit_bytes`: of records and tiles.
   PicturePainter(const Forest& forest, const ForestIndex& index, std::uint64_t limit_bytes);
 
+  // Of all trees, foliage and wood; empty without any.
+  Box bounds() const;
   SunPicture paint(const RasterView& view, std::uint64_t seed, const RunControl& control) const;
 
  private:

@@ -12,8 +12,8 @@ struct Wraps {
 };
 Wraps wraps_of(const RasterView& view, const PixelBox& b) {
   if (!view.wraps) return {};
-  return {floor_div(b.u_lo, view.u_count), floor_div(b.u_hi - 1, view.u_count), floor_div(b.v_lo, view.v_count),
-          floor_div(b.v_hi - 1, view.v_count)};
+  return {floor_div(b.u_lo, view.u_count), floor_div(b.u_hi - 1, view.u_count),
+          floor_div(b.v_lo, view.v_count), floor_div(b.v_hi - 1, view.v_count)};
 }
 
 PixelBox moved(const PixelBox& b, std::int32_t u, std::int32_t v) {
@@ -35,7 +35,8 @@ class Projector {
     flat(Vec3(e.centre_m), Vec3(e.half_u_m), Vec3(e.half_v_m), figure, element);
   }
 
-  void flat(const Vec3& centre, const Vec3& half_u, const Vec3& half_v, Figure figure, std::uint32_t element) {
+  void flat(const Vec3& centre, const Vec3& half_u, const Vec3& half_v, Figure figure,
+            std::uint32_t element) {
     RasterRecord r;
     take_centre(r, centre, figure, element);
     const double au = glm::dot(tree_.u_per_m, half_u), av = glm::dot(tree_.v_per_m, half_u);
@@ -61,7 +62,8 @@ class Projector {
     solid.height_u = glm::dot(view_.u_step_m, axis);
     solid.height_v = glm::dot(view_.v_step_m, axis);
     solid.rise = glm::dot(view_.to_sun, axis);
-    const Vec3 across_u = view_.u_step_m - solid.height_u * axis, across_v = view_.v_step_m - solid.height_v * axis;
+    const Vec3 across_u = view_.u_step_m - solid.height_u * axis,
+               across_v = view_.v_step_m - solid.height_v * axis;
     const Vec3 run = view_.to_sun - solid.rise * axis;
     solid.across_uu = glm::dot(across_u, across_u);
     solid.across_uv = glm::dot(across_u, across_v);
@@ -137,7 +139,8 @@ Vec3 point_of(const Instance& instance, const Vec3f& p) { return world_from_tree
 
 void project_shoot(Projector& projector, const Instance& instance, const FoliageElement& e,
                    std::uint32_t element) {
-  const double scale = instance.scale, length = glm::length(Vec3(e.half_u_m)), radius = glm::length(Vec3(e.half_v_m));
+  const double scale = instance.scale, length = glm::length(Vec3(e.half_u_m)),
+               radius = glm::length(Vec3(e.half_v_m));
   const double volume_m3 = 2.0 * length * kPi * radius * radius;
   RasterSolid solid;
   solid.highest = scale * length;
@@ -146,7 +149,8 @@ void project_shoot(Projector& projector, const Instance& instance, const Foliage
   // Half the one-sided needle area per volume, as in RayScene.
   solid.extinction_per_m = volume_m3 > 0.0 ? static_cast<float>(0.5 * e.area_m2 / volume_m3 / scale) : 0.0f;
   const Vec3 axis = length > 0.0 ? Vec3(e.half_u_m) / length : Vec3(0, 0, 1);
-  projector.solid(solid, Vec3(e.centre_m), world_direction_from_tree(instance, axis), Figure::kShoot, element);
+  projector.solid(solid, Vec3(e.centre_m), world_direction_from_tree(instance, axis), Figure::kShoot,
+                  element);
 }
 
 void project_segment(Projector& projector, const Instance& instance, const WoodSegment& s) {
@@ -178,10 +182,9 @@ PlacedTree place_tree(const RasterView& view, const Forest& forest, std::size_t 
   tree.s = glm::dot(view.s_per_m, at);
   if (box.empty()) return tree;
   const Vec3 half = 0.5 * box.size();
-  tree.bounds = box_around(tree.u + glm::dot(tree.u_per_m, box.centre()),
-                           tree.v + glm::dot(tree.v_per_m, box.centre()),
-                           glm::dot(glm::abs(tree.u_per_m), half) + 1e-3,
-                           glm::dot(glm::abs(tree.v_per_m), half) + 1e-3);
+  tree.bounds = box_around(
+      tree.u + glm::dot(tree.u_per_m, box.centre()), tree.v + glm::dot(tree.v_per_m, box.centre()),
+      glm::dot(glm::abs(tree.u_per_m), half) + 1e-3, glm::dot(glm::abs(tree.v_per_m), half) + 1e-3);
   return tree;
 }
 
@@ -225,8 +228,8 @@ void project_wood(const RasterView& view, const Forest& forest, const PlacedTree
   const Prototype& prototype = forest.prototypes[instance.prototype.value];
   for (const WoodSegment& s : prototype.wood) project_segment(projector, instance, s);
   for (const WoodTriangle& t : prototype.wood_mesh)
-    projector.flat(Vec3(t.a_m + t.b_m + t.c_m) / 3.0, Vec3(t.b_m - t.a_m), Vec3(t.c_m - t.a_m), Figure::kTriangle,
-                   kOnlyShades);
+    projector.flat(Vec3(t.a_m + t.b_m + t.c_m) / 3.0, Vec3(t.b_m - t.a_m), Vec3(t.c_m - t.a_m),
+                   Figure::kTriangle, kOnlyShades);
 }
 
 }  // namespace sunfleck::trace

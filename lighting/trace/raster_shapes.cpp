@@ -41,6 +41,22 @@ std::optional<SolidLine::Chord> SolidLine::chord() const {
   return chord;
 }
 
+Bands bands_of(const RasterRecord& r, const FlatShares& f, const std::vector<RasterSolid>& solids) {
+  Bands bands;
+  if (r.figure == Figure::kParallelogram) {
+    bands.cut(f.a_u, f.a_v, -1.0, 1.0);
+    bands.cut(f.b_u, f.b_v, -1.0, 1.0);
+  } else if (r.figure == Figure::kTriangle) {
+    bands.cut(f.a_u, f.a_v, -1.0 / 3.0, 2.0 / 3.0);
+    bands.cut(f.b_u, f.b_v, -1.0 / 3.0, 2.0 / 3.0);
+    bands.cut(f.a_u + f.b_u, f.a_v + f.b_v, -2.0 / 3.0, 1.0 / 3.0);
+  } else if (r.figure != Figure::kDisc) {
+    const RasterSolid& solid = solids[r.solid];
+    bands.cut(solid.aside_u, solid.aside_v, -solid.widest, solid.widest);
+  }
+  return bands;
+}
+
 FigurePoint point_of(const RasterRecord& r, double x, double y) {
   double a = 2.0 * x - 1.0, b = 2.0 * y - 1.0;
   if (r.figure == Figure::kCone || r.figure == Figure::kShoot) return {};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -28,10 +29,10 @@ inline constexpr std::uint32_t kOnlyShades = 0xFFFFFFFFu;  // wood
 enum class Figure : std::uint8_t { kParallelogram, kDisc, kTriangle, kCone, kShoot };
 
 struct RasterRecord {
-  double u = 0, v = 0;         // of the centre; of a cone's base
-  float s = 0, s_a = 0, s_b = 0;  // depth there, and along half_u and half_v of a flat figure
+  double u = 0, v = 0;                           // of the centre; of a cone's base
+  float s = 0, s_a = 0, s_b = 0;                 // depth there, and along half_u and half_v of a flat figure
   float a_du = 0, a_dv = 0, b_du = 0, b_dv = 0;  // half_u and half_v of a flat figure in pixels
-  PixelBox bounds;  // every pixel whose square the figure touches
+  PixelBox bounds;                               // every pixel whose square the figure touches
   std::uint32_t element = kOnlyShades;
   std::uint32_t solid = 0;  // of a cone or shoot
   Figure figure = Figure::kParallelogram;
@@ -41,10 +42,10 @@ struct RasterRecord {
 // A frustum's side or a cylinder, cut by lines along to_sun: t metres along the line from the plane through
 // the base or centre, as polynomials of the pixels (du, dv) from there.
 struct RasterSolid {
-  double height_u = 0, height_v = 0, rise = 0;           // along the axis: per pixel, per metre of t
-  double across_uu = 0, across_uv = 0, across_vv = 0;    // |vector from the axis|^2
-  double run_u = 0, run_v = 0, run2 = 0;                 // its product with the way aside, and that squared
-  double aside_u = 0, aside_v = 0;                       // distance from the plane of axis and sun
+  double height_u = 0, height_v = 0, rise = 0;            // along the axis: per pixel, per metre of t
+  double across_uu = 0, across_uv = 0, across_vv = 0;     // |vector from the axis|^2
+  double run_u = 0, run_v = 0, run2 = 0;                  // its product with the way aside, and that squared
+  double aside_u = 0, aside_v = 0;                        // distance from the plane of axis and sun
   double lowest = 0, highest = 0, radius = 0, taper = 0;  // heights; radius at height 0
   double widest = 0;
   float extinction_per_m = 0;  // of a shoot
@@ -96,62 +97,65 @@ class SolidLine {
   double height_, a_, b_, c_;
 };
 
-// The pixels of row v whose centres a band lo <= p (u - u0) + q <= hi holds.
-struct Run {
-  double lo, hi;  // of u - u0, real
+// Bands across the picture whose common part a figure is, or a solid lies in: the pixels of a row dv from the
+// centre that a band holds are those with near <= du - slope dv <= far.
+class Bands {
+ public:
+  // least <= p du + q dv <= most
   void cut(double p, double q, double least, double most) {
     constexpr double kTiny = 1e-30;
     const double inverse = 1.0 / (std::abs(p) > kTiny ? p : kTiny);
-    const double x = (least - q) * inverse, y = (most - q) * inverse;
-    lo = std::max(lo, std::min(x, y));
-    hi = std::min(hi, std::max(x, y));
+    const double x = least * inverse, y = most * inverse;
+    band_[count_++] = {std::min(x, y), std::max(x, y), -q * inverse};
   }
+  struct Run {
+    double lo, hi;  // of du
+  };
+  void cut(double dv, Run& run) const {
+    for (const Band& b : band_) {
+      run.lo = std::max(run.lo, b.near + b.slope * dv);
+      run.hi = std::min(run.hi, b.far + b.slope * dv);
+    }
+  }
+
+ private:
+  struct Band {
+    double near = -1e30, far = 1e30, slope = 0;
+  };
+  std::array<Band, 3> band_;
+  std::size_t count_ = 0;
 };
+// Of a parallelogram, a triangle or a solid; none for a disc.
+Bands bands_of(const RasterRecord& record, const FlatShares& shares, const std::vector<RasterSolid>& solids);
+
+// The run of a disc, |(a, b) + du (a_u, b_u)| <= 1, in row dv.
+inline void cut_disc(const FlatShares& f, double dv, Bands::Run& run) {
+  const double a = f.a_v * dv, b = f.b_v * dv, p2 = f.a_u * f.a_u + f.b_u * f.b_u;
+  const double middle = a * f.a_u + b * f.b_u, rest = a * f.b_u - b * f.a_u;
+  const double root = std::sqrt(std::max(0.0, p2 - rest * rest));
+  run.lo = std::max(run.lo, (-middle - root) / p2);
+  run.hi = std::min(run.hi, (-middle + root) / p2);
+}
 
 // Calls visit(v, u_begin, u_end) for the rows of a flat figure inside `clip`, and for a solid's rows that may
-// hold it.
+// hold it. A pixel belongs to a figure if its centre u + 1/2 lies in [lo, hi) of its row: a border shared by
+// two figures belongs to one.
 template <class Visit>
 void for_each_run(const RasterRecord& r, const std::vector<RasterSolid>& solids, const PixelBox& clip,
                   Visit&& visit) {
   const PixelBox box = common(r.bounds, clip);
   const bool solid = r.figure == Figure::kCone || r.figure == Figure::kShoot;
-  const FlatShares f = solid ? FlatShares{} : shares_of(r);
-  if (!solid && f.edge_on) return;
+  const FlatShares shares = solid ? FlatShares{} : shares_of(r);
+  if (!solid && shares.edge_on) return;
+  const Bands bands = bands_of(r, shares, solids);
   for (std::int32_t v = box.v_lo; v < box.v_hi; ++v) {
     const double dv = v + 0.5 - r.v;
-    Run run{box.u_lo - r.u, box.u_hi - r.u};
-    const double a = f.a_v * dv, b = f.b_v * dv;
-    switch (r.figure) {
-      case Figure::kParallelogram:
-        run.cut(f.a_u, a, -1.0, 1.0);
-        run.cut(f.b_u, b, -1.0, 1.0);
-        break;
-      case Figure::kTriangle:
-        run.cut(f.a_u, a, -1.0 / 3.0, 2.0 / 3.0);
-        run.cut(f.b_u, b, -1.0 / 3.0, 2.0 / 3.0);
-        run.cut(f.a_u + f.b_u, a + b, -2.0 / 3.0, 1.0 / 3.0);
-        break;
-      case Figure::kDisc: {  // |(a, b) + du (a_u, b_u)| <= 1
-        const double p2 = f.a_u * f.a_u + f.b_u * f.b_u;
-        const double middle = a * f.a_u + b * f.b_u, rest = a * f.b_u - b * f.a_u;
-        const double root2 = p2 - rest * rest;
-        if (!(root2 > 0.0)) continue;
-        run.lo = std::max(run.lo, (-middle - std::sqrt(root2)) / p2);
-        run.hi = std::min(run.hi, (-middle + std::sqrt(root2)) / p2);
-        break;
-      }
-      case Figure::kCone:
-      case Figure::kShoot: {
-        const RasterSolid& s = solids[r.solid];
-        run.cut(s.aside_u, s.aside_v * dv, -s.widest, s.widest);
-      }
-    }
-    // Centres u + 1/2 in [lo, hi): a border shared by two figures belongs to one.
-    const double first = std::ceil(run.lo + r.u - 0.5), end = std::ceil(run.hi + r.u - 0.5);
-    if (!(first < end)) continue;
-    const auto u_begin = std::max(box.u_lo, static_cast<std::int32_t>(first));
-    const auto u_end = std::min(box.u_hi, static_cast<std::int32_t>(end));
-    if (u_begin < u_end) visit(v, u_begin, u_end);
+    Bands::Run run{box.u_lo + 0.5 - r.u, box.u_hi + 0.5 - r.u};
+    bands.cut(dv, run);
+    if (r.figure == Figure::kDisc) cut_disc(shares, dv, run);
+    const auto begin = static_cast<std::int32_t>(std::ceil(run.lo + r.u - 0.5));
+    const auto end = static_cast<std::int32_t>(std::ceil(std::max(run.lo, run.hi) + r.u - 0.5));
+    if (begin < end) visit(v, begin, std::min(end, box.u_hi));
   }
 }
 
@@ -160,8 +164,8 @@ inline double longest_chord(const RasterSolid& solid) {
   return 2.0 * std::hypot(solid.radius, solid.highest);
 }
 
-// A point of a figure from two numbers in [0, 1) that spread over it as over the unit square: pixels and depth
-// from its centre. Of a solid: its centre.
+// A point of a figure from two numbers in [0, 1) that spread over it as over the unit square: pixels and
+// depth from its centre. Of a solid: its centre.
 struct FigurePoint {
   double u = 0, v = 0, s = 0;
 };

@@ -2,7 +2,7 @@
 
 #include <atomic>
 
-#include "lighting/trace/raster_cloud.h"
+#include "lighting/trace/raster_lanes.h"
 
 namespace sunfleck::trace {
 namespace {
@@ -23,7 +23,7 @@ std::uint64_t fixed(double x) { return static_cast<std::uint64_t>(x * kWhole + 0
 }  // namespace
 
 RasterTile::RasterTile(const RasterView& view, const RasterScene& scene, const PixelBox& box)
-    : view_(view), scene_(scene), box_(box), depth_(kTileSide * kTileSide), shown_(kTileSide * kTileSide) {}
+    : view_(view), scene_(scene), box_(box), depth_(kTilePixels), shown_(kTilePixels) {}
 
 void RasterTile::work(std::span<const std::uint32_t> records, std::uint64_t seed,
                       std::vector<SunTally>& tallies, std::vector<SunLookup>& lookups) {
@@ -64,14 +64,8 @@ void RasterTile::draw_flat(std::uint32_t record) {
   const auto per_u = static_cast<float>(f.a_u * r.s_a + f.b_u * r.s_b);
   const double per_v = f.a_v * r.s_a + f.b_v * r.s_b;
   for_each_run(r, scene_.solids, box_, [&](std::int32_t v, std::int32_t begin, std::int32_t end) {
-    float* depth = depth_.data() + at(begin, v);
-    std::uint32_t* shown = shown_.data() + at(begin, v);
-    auto s = static_cast<float>(r.s + per_v * (v + 0.5 - r.v) + per_u * (begin + 0.5 - r.u));
-    for (std::int32_t i = 0; i < end - begin; ++i, s += per_u) {
-      const bool nearer = s > depth[i];
-      depth[i] = nearer ? s : depth[i];
-      shown[i] = nearer ? record : shown[i];
-    }
+    const auto s = static_cast<float>(r.s + per_v * (v + 0.5 - r.v) + per_u * (begin + 0.5 - r.u));
+    draw_run(depth_.data() + at(begin, v), shown_.data() + at(begin, v), end - begin, s, per_u, record);
   });
 }
 
@@ -90,29 +84,23 @@ void RasterTile::draw_cone(std::uint32_t record) {
 }
 
 SunTally RasterTile::count_opaque(std::uint32_t record) const {
-  std::uint64_t covered = 0, visible = 0, borders = 0;
+  std::uint64_t covered = 0;
+  LaneCount seen, changes;
   std::int32_t before = 0, begin_before = 0, end_before = 0;  // the row before
   for_each_run(scene_.records[record], scene_.solids, box_,
                [&](std::int32_t v, std::int32_t begin, std::int32_t end) {
                  const std::uint32_t* row = shown_.data() + at(begin, v);
-                 const std::int32_t n = end - begin;
-                 covered += static_cast<std::uint64_t>(n);
-                 std::uint32_t seen = 0, changes = 0;
-                 for (std::int32_t i = 0; i < n; ++i) seen += row[i] == record;
-                 for (std::int32_t i = 1; i < n; ++i) changes += (row[i] == record) != (row[i - 1] == record);
-                 if (before == v - 1) {
-                   const std::int32_t first = std::max(begin, begin_before) - begin;
-                   const std::int32_t last = std::min(end, end_before) - begin;
-                   const std::uint32_t* above = row - kTileSide;
-                   for (std::int32_t i = first; i < last; ++i)
-                     changes += (row[i] == record) != (above[i] == record);
-                 }
-                 visible += seen;
-                 borders += changes;
+                 covered += static_cast<std::uint64_t>(end - begin);
+                 seen.add_seen(row, end - begin, record);
+                 changes.add_changes(row + 1, row, end - begin - 1, record);
+                 const std::int32_t first = std::max(begin, begin_before), last = std::min(end, end_before);
+                 if (before == v - 1 && first < last)
+                   changes.add_changes(row + (first - begin), row + (first - begin) - kTileStride,
+                                       last - first, record);
                  before = v, begin_before = begin, end_before = end;
                });
   constexpr auto kUnit = static_cast<std::uint64_t>(kWhole);
-  return {covered * kUnit, visible * kUnit, borders * kUnit};
+  return {covered * kUnit, seen.total() * kUnit, changes.total() * kUnit};
 }
 
 SunTally RasterTile::count_behind_shoots(std::uint32_t record) const {
@@ -130,7 +118,7 @@ SunTally RasterTile::count_behind_shoots(std::uint32_t record) const {
                    tally.visible += fixed(here);
                    if (u > begin) tally.borders += fixed(std::pow(here - seen(pixel - 1), 2));
                    if (before == v - 1 && u >= begin_before && u < end_before)
-                     tally.borders += fixed(std::pow(here - seen(pixel - kTileSide), 2));
+                     tally.borders += fixed(std::pow(here - seen(pixel - kTileStride), 2));
                  }
                  before = v, begin_before = begin, end_before = end;
                });
@@ -147,7 +135,8 @@ void RasterTile::gather_shoot(std::uint32_t record, SunTally& tally) {
       if (!chord) continue;
       add(tally.covered, fixed((chord->leave - chord->enter) / longest));
       const auto pixel = static_cast<std::uint32_t>(at(u, v));
-      const auto enter = static_cast<float>(r.s + chord->enter), leave = static_cast<float>(r.s + chord->leave);
+      const auto enter = static_cast<float>(r.s + chord->enter),
+                 leave = static_cast<float>(r.s + chord->leave);
       if (enter < leave) fragments_.push_back({pixel, record, enter, leave, false});
     }
   });
@@ -199,10 +188,11 @@ double RasterTile::own_shade(const RasterRecord& r) const {
   return optical > 1e-9 ? -std::expm1(-optical) / optical : 1.0;
 }
 
-bool RasterTile::find_point(const RasterRecord& r, std::uint64_t seed, std::uint32_t& pixel, float& depth) const {
+bool RasterTile::find_point(const RasterRecord& r, std::uint64_t seed, std::uint32_t& pixel,
+                            float& depth) const {
   const std::uint64_t lot = mix_seed(seed, r.element);
-  const FigurePoint p = point_of(r, static_cast<double>(lot & 0xFFFFFFFFu) * 0x1p-32,
-                                 static_cast<double>(lot >> 32) * 0x1p-32);
+  const FigurePoint p =
+      point_of(r, static_cast<double>(lot & 0xFFFFFFFFu) * 0x1p-32, static_cast<double>(lot >> 32) * 0x1p-32);
   const double col = std::floor(r.u + p.u), row = std::floor(r.v + p.v);
   if (!(col >= box_.u_lo && col < box_.u_hi && row >= box_.v_lo && row < box_.v_hi)) return false;
   pixel = static_cast<std::uint32_t>(at(static_cast<std::int32_t>(col), static_cast<std::int32_t>(row)));
@@ -223,7 +213,8 @@ void RasterTile::look_up(std::span<const std::uint32_t> records, std::uint64_t s
     if (clouds)
       fragments_.push_back({pixel, r, depth, next, true});
     else
-      lookups.push_back({record.element, static_cast<float>(depth < depth_[pixel] ? 0.0 : own_shade(record))});
+      lookups.push_back(
+          {record.element, static_cast<float>(depth < depth_[pixel] ? 0.0 : own_shade(record))});
   }
 }
 

@@ -13,6 +13,9 @@
 namespace sunfleck::trace {
 
 inline constexpr std::int32_t kTileSide = 128;
+// Rows lie further apart, so that the last run of eight pixels stays inside (raster_lanes.h).
+inline constexpr std::int32_t kTileStride = kTileSide + 8;
+inline constexpr std::size_t kTilePixels = static_cast<std::size_t>(kTileSide) * kTileStride + 8;
 inline constexpr double kWhole = 1 << 20;
 
 // Over all tiles of one picture, per element, in 1 / kWhole.
@@ -48,7 +51,7 @@ class RasterTile {
   };
 
   std::size_t at(std::int32_t u, std::int32_t v) const {
-    return static_cast<std::size_t>(v - box_.v_lo) * kTileSide + static_cast<std::size_t>(u - box_.u_lo);
+    return static_cast<std::size_t>(v - box_.v_lo) * kTileStride + static_cast<std::size_t>(u - box_.u_lo);
   }
   void clear();
   void draw(std::uint32_t record);
@@ -70,7 +73,7 @@ class RasterTile {
   const RasterScene& scene_;
   const PixelBox box_;
   std::vector<float> depth_;
-  std::vector<std::uint32_t> shown_;   // record of the nearest surface
+  std::vector<std::uint32_t> shown_;  // record of the nearest surface
   std::vector<float> transmittance_;  // down to it; empty without shoots
   std::vector<Fragment> fragments_;
   CloudLine line_;

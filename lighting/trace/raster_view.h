@@ -1,7 +1,7 @@
 // The picture plane of the sun: where a point falls in pixels and how near it is to the sun, both linear in
-// its place. Without a period the plane lies across the beam, turned and shifted at random. With one it is the
-// ground plane along the sun's rays: a whole number of pixels per period, so that all copies of the forest
-// fall onto the same picture and their depth (way along the ray down to the plane) still orders them.
+// its place. Without a period the plane lies across the beam, turned and shifted at random. With one it is
+// the ground plane along the sun's rays: a whole number of pixels per period, so that all copies of the
+// forest fall onto the same picture and their depth (way along the ray down to the plane) still orders them.
 #pragma once
 
 #include <cstdint>

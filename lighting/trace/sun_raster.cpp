@@ -37,7 +37,8 @@ double fraction_of(double x) { return x - std::floor(x); }
 // Roberts' R2 lattice, shifted at random, over the disc: every point alone is evenly distributed.
 Vec3 point_of_disc(const Vec3& axis, double half_angle_rad, int k, double shift_a, double shift_b) {
   if (half_angle_rad == 0.0) return axis;
-  const double a = fraction_of(shift_a + k * 0.7548776662466927), b = fraction_of(shift_b + k * 0.5698402909980532);
+  const double a = fraction_of(shift_a + k * 0.7548776662466927),
+               b = fraction_of(shift_b + k * 0.5698402909980532);
   const double drop = a * 2.0 * std::pow(std::sin(0.5 * half_angle_rad), 2);  // 1 - cos
   const double across = std::sqrt(drop * (2.0 - drop)), turn = 2.0 * kPi * b;
   const Basis basis = basis_around(axis);
@@ -67,12 +68,13 @@ class SunRaster {
         half_angle_rad_(half_angle_rad),
         options_(options),
         control_(control),
-        bounds_(forest_bounds(forest)),
         side_m_(typical_side_m(forest, index.element_count())),
-        painter_(forest, index, options.memory_limit_bytes) {}
+        painter_(forest, index, options.memory_limit_bytes),
+        bounds_(painter_.bounds()) {}
 
   SunExposure run() {
-    directions_ = options_.sun_directions > 0 ? options_.sun_directions : chosen_directions();
+    directions_ = options_.sun_directions > 0 ? options_.sun_directions
+                                              : chosen_sun_directions(forest_, index_, half_angle_rad_);
     double pixel_m = options_.pixel_m;
     if (pixel_m == 0.0) {
       // The error falls as pixel^1.5 / sqrt(directions).
@@ -85,14 +87,6 @@ class SunRaster {
   }
 
  private:
-  int chosen_directions() const {
-    // Width of a penumbra half the forest's depth away.
-    const double away_m = 0.5 * std::min(glm::length(bounds_.size()), 4.0 * bounds_.size().z);
-    const double widths = 2.0 * half_angle_rad_ * away_m / side_m_;
-    if (widths < 0.1) return 1;
-    return widths < 1.0 ? 4 : 16;
-  }
-
   SunExposure draw(double pixel_m, int directions, std::uint64_t round) {
     RandomStream disc(options_.seed, round, RandomPurpose::kSunRaster);
     const double shift_a = disc.uniform(), shift_b = disc.uniform();
@@ -120,13 +114,16 @@ class SunRaster {
                                       RandomStream(options_.seed, number + 2, RandomPurpose::kSunRaster));
     const SunPicture picture = painter_.paint(view, mix_seed(options_.seed, number), control_);
     std::uint64_t covered = 0;
-    for_each_element([&](std::size_t e, const FoliageElement& element) {
-      const SunTally& tally = picture.tallies[e];
-      covered += tally.covered;
-      const double looked_up = picture.looked_up[e];
-      means[e].add(element.shape == ElementShape::kShoot ? sunlit_shoot(tally, looked_up)
-                                                          : sunlit_leaf(tally, looked_up));
-    });
+    const double pixel_side_m = std::sqrt(view.pixel_area_m2);
+    for_each_element(
+        [&](std::size_t e, const FoliageElement& element, const Vec3& sun_in_tree, double scale) {
+          const SunTally& tally = picture.tallies[e];
+          covered += tally.covered;
+          means[e].add(element.shape == ElementShape::kShoot
+                           ? sunlit_shoot(tally, picture.looked_up[e])
+                           : sunlit_leaf(tally, scale * rim_seen_m(element, sun_in_tree) / pixel_side_m,
+                                         picture.looked_up[e]));
+        });
     out.pixels += static_cast<std::uint64_t>(static_cast<double>(covered) / kWhole);
   }
 
@@ -134,28 +131,27 @@ class SunRaster {
     out.sunlit_fraction.resize(means.size());
     out.standard_error.resize(means.size());
     double light = 0.0, squares = 0.0;
-    std::size_t e = 0;
-    for (std::size_t i = 0; i < forest_.instances.size(); ++i) {
-      const Vec3 to_sun = tree_direction_from_world(forest_.instances[i], to_sun_);
-      for (const FoliageElement& element : forest_.prototypes[forest_.instances[i].prototype.value].foliage) {
-        const SunlitEstimate mean = means[e].mean(out.sun_directions);
-        const double beam = beam_on(element, to_sun).both();
-        out.sunlit_fraction[e] = static_cast<float>(mean.fraction);
-        out.standard_error[e] = static_cast<float>(std::sqrt(mean.variance));
-        light += beam * mean.fraction;
-        squares += beam * beam * mean.variance;
-        ++e;
-      }
-    }
+    for_each_element([&](std::size_t e, const FoliageElement& element, const Vec3& sun_in_tree, double) {
+      const SunlitEstimate mean = means[e].mean(out.sun_directions);
+      const double beam = beam_on(element, sun_in_tree).both();
+      out.sunlit_fraction[e] = static_cast<float>(mean.fraction);
+      out.standard_error[e] = static_cast<float>(std::sqrt(mean.variance));
+      light += beam * mean.fraction;
+      squares += beam * beam * mean.variance;
+    });
     const auto n = static_cast<double>(means.size());
     out.relative_error = light > 0.0 ? std::sqrt(squares / n) / (light / n) : 0.0;
   }
 
+  // visit(number, element, to_sun in the tree's coordinates, the tree's scale)
   template <class Visit>
   void for_each_element(Visit&& visit) const {
     std::size_t e = 0;
-    for (const Instance& i : forest_.instances)
-      for (const FoliageElement& element : forest_.prototypes[i.prototype.value].foliage) visit(e++, element);
+    for (const Instance& i : forest_.instances) {
+      const Vec3 to_sun = tree_direction_from_world(i, to_sun_);
+      for (const FoliageElement& element : forest_.prototypes[i.prototype.value].foliage)
+        visit(e++, element, to_sun, static_cast<double>(i.scale));
+    }
   }
 
   const Forest& forest_;
@@ -164,9 +160,9 @@ class SunRaster {
   const double half_angle_rad_;
   const SunRasterOptions& options_;
   const RunControl& control_;
-  const Box bounds_;
   const double side_m_;
   const PicturePainter painter_;
+  const Box bounds_;
   int directions_ = 1;
 };
 
@@ -174,8 +170,17 @@ class SunRaster {
 
 BeamOnFaces beam_on_faces(const Forest& forest, std::size_t instance, std::size_t local, const Vec3& to_sun) {
   const Instance& i = forest.instances[instance];
-  return beam_on(forest.prototypes[i.prototype.value].foliage[local],
-                            tree_direction_from_world(i, to_sun));
+  return beam_on(forest.prototypes[i.prototype.value].foliage[local], tree_direction_from_world(i, to_sun));
+}
+
+// By the width of a penumbra half the forest's depth away, in leaves.
+int chosen_sun_directions(const Forest& forest, const ForestIndex& index, double half_angle_rad) {
+  if (half_angle_rad == 0.0 || index.element_count() == 0) return 1;
+  const Vec3 size = forest_bounds(forest).size();
+  const double away_m = 0.5 * std::min(glm::length(size), 4.0 * size.z);
+  const double widths = 2.0 * half_angle_rad * away_m / typical_side_m(forest, index.element_count());
+  if (widths < 0.1) return 1;
+  return widths < 1.0 ? 4 : 16;
 }
 
 SunExposure raster_sun(const Forest& forest, const ForestIndex& index, const Vec3& to_sun,

@@ -1,8 +1,8 @@
-// Direct sun on every foliage element without rays: the forest is drawn as the sun sees it, pixel by pixel, the
-// nearest surface wins, and the sunlit fraction of an element is the share of its pixels that show it ("item
-// buffer": Weghorst, Hooper and Greenberg 1984). Leaves, discs, triangles and tapered wood are drawn exactly at
-// the pixels' centres; shoots are clouds that a ray meets as RayScene says, so every pixel through them keeps
-// its transmittance instead of a lot drawn.
+// Direct sun on every foliage element without rays: the forest is drawn as the sun sees it, pixel by pixel,
+// the nearest surface wins, and the sunlit fraction of an element is the share of its pixels that show it
+// ("item buffer": Weghorst, Hooper and Greenberg 1984). Leaves, discs, triangles and tapered wood are drawn
+// exactly at the pixels' centres; shoots are clouds that a ray meets as RayScene says, so every pixel through
+// them keeps its transmittance instead of a lot drawn.
 //
 // Unbiased but for O(1 / pixels of an element): the pixel grid is shifted and (without a period) turned at
 // random, as `seed` says. In a periodic forest the picture lies on the ground plane and wraps around like
@@ -31,9 +31,9 @@ struct SunRasterOptions {
   // a coarse first picture tells the pixel that reaches it. Ignored where pixel_m is given.
   double target_error = 0.05;  // 1e-3 .. 1
   double pixel_m = 0;          // side of a pixel across the beam; 0: from target_error
-  int sun_directions = 0;      // 1 .. 4096; 0: 1 for a point or where penumbras are thin against leaves, else 4
-                               // to 16
-  bool ground = true;          // the ground shades what lies below it and, sloped, from behind
+  int sun_directions = 0;  // 1 .. 4096; 0: 1 for a point or where penumbras are thin against leaves, else 4
+                           // to 16
+  bool ground = true;      // the ground shades what lies below it and, sloped, from behind
   std::uint64_t seed = 1;
   // Of projected elements and tiles; a forest that needs more is drawn in parts (slower, the same answer to
   // the bit). The answer itself comes on top: 44 bytes per element while drawing.
@@ -54,8 +54,11 @@ struct SunExposure {
 SunExposure raster_sun(const Forest& forest, const ForestIndex& index, const Vec3& to_sun,
                        double half_angle_rad, const SunRasterOptions& options, const RunControl& control);
 
-// Irradiance on an element's faces by a beam of 1 W m-2 on a plane that faces it, were it wholly in the sun: of
-// a leaf one face, of a shoot a quarter on each.
+// Pictures that raster_sun takes for its own choice (SunRasterOptions::sun_directions 0).
+int chosen_sun_directions(const Forest& forest, const ForestIndex& index, double half_angle_rad);
+
+// Irradiance on an element's faces by a beam of 1 W m-2 on a plane that faces it, were it wholly in the sun:
+// of a leaf one face, of a shoot a quarter on each.
 struct BeamOnFaces {
   float front = 0, back = 0;
   float both() const { return front + back; }

@@ -1,9 +1,11 @@
-// Direct sun per leaf: error against CPU time of shadow rays and of the raster, as a table. The truth of a few
-// hundred leaves comes from 4096 spread shadow rays each (error about 0.3 %); errors are RMS over those
+// Direct sun per leaf: error against CPU time of shadow rays and of the raster, as a table. The truth of a
+// few hundred leaves comes from 4096 spread shadow rays each (error about 0.3 %); errors are RMS over those
 // leaves of their direct irradiance, relative to its mean. CPU time is of one thread for all leaves, without
 // building the ray scene, which is printed apart. Usage: lighting_trace_sun_error [scene ...].
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <ctime>
 #include <functional>
 #include <map>
@@ -74,7 +76,9 @@ class Table {
     if (target > 0) o.target_error = target;
     const double before = cpu_s();
     SunExposure sun;
-    with_threads(1, [&] { sun = raster_sun(forest_, index_, light_.to_sun, light_.sun_half_angle_rad, o, {}); });
+    with_threads(1,
+                 [&] { sun = raster_sun(forest_, index_, light_.to_sun, light_.sun_half_angle_rad, o, {}); });
+    bins_ = std::getenv("BINS") != nullptr, pixel_m_ = sun.pixel_m;
     char what[80];
     std::snprintf(what, sizeof what, "%.2f mm x %d%s", 1e3 * sun.pixel_m, sun.sun_directions,
                   target > 0 ? " chosen" : "");
@@ -83,11 +87,11 @@ class Table {
 
  private:
   void take_truth() {
-    const std::size_t step = std::max<std::size_t>(1, index_.element_count() / 1000);
+    const std::size_t step = std::max<std::size_t>(1, index_.element_count() / 4000);
     for (std::size_t e = 0; e < index_.element_count(); e += step) {
       RandomStream random(99, e, RandomPurpose::kTestScene);
-      const auto sun = trace::sun_on_surface(scene_->rays(), trace::SurfaceSampler(scene_->receivers(), e), light_,
-                                             4096, trace::SunPoints::kSpread, random);
+      const auto sun = trace::sun_on_surface(scene_->rays(), trace::SurfaceSampler(scene_->receivers(), e),
+                                             light_, 4096, trace::SunPoints::kSpread, random);
       const ForestIndex::Place place = index_.place(e);
       sample_.elements.push_back(e);
       sample_.beam.push_back(beam_on_faces(forest_, place.instance, place.local, light_.to_sun).both());
@@ -107,10 +111,29 @@ class Table {
       claimed += std::pow(sample_.beam[i] * error[e], 2);
     }
     const auto n = static_cast<double>(sample_.elements.size());
-    std::printf("  %-14s %-20s cpu %8.4f s  error %6.2f %%  bias %+5.2f %%  squares found/claimed %.2f\n", kind,
-                what.c_str(), seconds, 100 * std::sqrt(squares / n) / (light / n), 100 * difference / light,
-                claimed > 0 ? squares / claimed : 0.0);
+    std::printf("  %-14s %-20s cpu %8.4f s  error %6.2f %%  bias %+5.2f %%  squares found/claimed %.2f\n",
+                kind, what.c_str(), seconds, 100 * std::sqrt(squares / n) / (light / n),
+                100 * difference / light, claimed > 0 ? squares / claimed : 0.0);
     std::fflush(stdout);
+    if (bins_) print_bins(fraction, error);
+  }
+
+  // Found over claimed squares by pixels of a leaf.
+  void print_bins(const std::vector<float>& fraction, const std::vector<float>& error) const {
+    std::map<int, std::array<double, 3>> bins;
+    for (std::size_t i = 0; i < sample_.elements.size(); ++i) {
+      const std::size_t e = sample_.elements[i];
+      const ForestIndex::Place place = index_.place(e);
+      const double area = world_element(forest_, place.instance, place.local).area_m2;
+      auto& bin =
+          bins[static_cast<int>(std::floor(std::log2(area * sample_.beam[i] / (pixel_m_ * pixel_m_))))];
+      bin[0] += 1;
+      bin[1] += std::pow(fraction[e] - sample_.truth[i], 2);
+      bin[2] += std::pow(error[e], 2);
+    }
+    for (const auto& [power, bin] : bins)
+      std::printf("      2^%d pixels: n %5.0f rms error %.4f found/claimed %.2f\n", power, bin[0],
+                  std::sqrt(bin[1] / bin[0]), bin[1] / bin[2]);
   }
 
   std::string name_;
@@ -119,12 +142,18 @@ class Table {
   Illumination light_;
   std::unique_ptr<ProbeScene> scene_;
   Sample sample_;
+
+ public:
+  bool bins_ = false;
+  double pixel_m_ = 0;
 };
 
 void work_through(const std::string& name, const Forest& forest, double half_angle_deg) {
   Table table(name, forest, half_angle_deg);
-  table.rays(trace::SunPoints::kIndependent, "random rays");
-  table.rays(trace::SunPoints::kSpread, "lattice rays");
+  if (std::getenv("BINS") == nullptr) {
+    table.rays(trace::SunPoints::kIndependent, "random rays");
+    table.rays(trace::SunPoints::kSpread, "lattice rays");
+  }
   table.raster();
 }
 
