@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "lighting/trace/probe_light.h"
 #include "lighting/trace/raster_lanes.h"
 #include "sim/base/error.h"
 #include "sim/base/parallel.h"
@@ -124,7 +125,7 @@ TEST(SunRaster, LeavesBetweenPixelsAreLookedUp) {
 
 // The edge of a wide shade d above a leaf: fraction of the disc seen from x aside of it,
 // 1/2 + (x sqrt(1 - x^2) + asin x) / pi for x in radii of the penumbra d tan(half angle).
-TEST(SunRaster, PenumbraOfAStraightEdge) {
+TEST(SunRaster, PenumbraOfAStraightEdgeAsTheReferenceAndProbesSeeIt) {
   const double half_angle = radians_from_degrees(0.265), distance = 20,
                radius = distance * std::tan(half_angle);
   for (const double x : {-0.8, -0.4, 0.0, 0.5, 0.9}) {
@@ -133,6 +134,15 @@ TEST(SunRaster, PenumbraOfAStraightEdge) {
                                      quad({-0.25, 0, 1 + distance}, {0.25, 0, 0}, {0, 0.25, 0})});
     const SunExposure e = draw(forest, {0, 0, 1}, {.pixel_m = 0.001, .sun_directions = 128}, half_angle);
     const double seen = 0.5 + (x * std::sqrt(1 - x * x) + std::asin(x)) / kPi;
+    // Shadow rays of the reference and of probes: 2000 outcomes scatter by 0.011.
+    Illumination light = sunlight({0, 0, 1}, 1);
+    light.sun_half_angle_rad = half_angle;
+    const LightMap map = trace_light(forest, 0, light, {.rays_per_face = 2, .sun_rays_per_element = 2000});
+    EXPECT_NEAR(map.bands[0].elements[0].front.direct_w_m2, seen, 0.045) << x;
+    const ProbeScene scene(forest, true, {});
+    const auto probes = probe_light(scene, optics_of(forest, 0), checked(light, 1),
+                                    std::vector<std::size_t>{0}, {.paths_per_face = 2, .sun_rays = 2000}, {});
+    EXPECT_NEAR(probes[0].bands[0].front.direct_w_m2, seen, 0.045) << x;
     EXPECT_NEAR(e.sunlit_fraction[0], seen, 0.03) << x;
     EXPECT_LT(e.standard_error[0], 0.06);
   }
