@@ -87,7 +87,7 @@ class Table {
 
  private:
   void take_truth() {
-    const std::size_t step = std::max<std::size_t>(1, index_.element_count() / 4000);
+    const std::size_t step = std::max<std::size_t>(1, index_.element_count() / 1000);
     for (std::size_t e = 0; e < index_.element_count(); e += step) {
       RandomStream random(99, e, RandomPurpose::kTestScene);
       const auto sun = trace::sun_on_surface(scene_->rays(), trace::SurfaceSampler(scene_->receivers(), e),
