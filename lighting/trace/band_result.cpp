@@ -114,6 +114,7 @@ class BandFiller {
         given += r.area_m2(s) * solved.radiosity.of_face[r.first_face(s) + i][0];
       }
     typical_radiosity_ = area > 0.0 ? given / area : 0.0;
+    if (p_.fewest_rays >= 2) gains_ = spread_gains(p_, solved.radiosity);
   }
 
   // Fills the foliage elements of a range of surfaces and returns the flows of all of them.
@@ -159,10 +160,11 @@ class BandFiller {
     GroupValues passed;
     for (std::size_t g = 0; g < kGroups; ++g) passed[g] = front.by_all_rays[g] + back.by_all_rays[g];
     const std::size_t face = p_.receivers.first_face(s);
-    return {own_ray_variance(p_, solved_.radiosity, face, typical_radiosity_) +
-                own_ray_variance(p_, solved_.radiosity, face + 1, typical_radiosity_) +
+    const SpreadGains& gains = is_shoot(p_.receivers, s) ? gains_.shoots : gains_.leaves;
+    return {gains.rays * (own_ray_variance(p_, solved_.radiosity, face, typical_radiosity_) +
+                          own_ray_variance(p_, solved_.radiosity, face + 1, typical_radiosity_)) +
                 jackknife_variance(passed, p_.fewest_rays),
-            sun_variance(p_, s, light_.to_sun)};
+            gains.sun_rays * sun_variance(p_, s, light_.to_sun)};
   }
 
   const SolvedBand& solved_;
@@ -172,6 +174,7 @@ class BandFiller {
   const RunControl& control_;
   std::vector<Variances> variances_;
   double typical_radiosity_ = 0;
+  ShapeGains gains_;
 };
 
 double standard_error(const Flows& flows, Flow flow, int fewest_rays) {

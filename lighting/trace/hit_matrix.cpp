@@ -24,8 +24,9 @@ class RowTracer {
     const RandomPurpose purpose = purpose_of(surface.object().kind, front);
     for (int k = begin; k < end; ++k) {
       RandomStream random(seed_, face, purpose, 2 * static_cast<std::uint32_t>(k));
-      const SurfacePoint at = surface.sample(random);
-      const Vec3 direction = cosine_direction(front ? at.normal : -at.normal, random);
+      const auto x = point_of_group(mix_seed(seed_, static_cast<std::uint64_t>(purpose)), face, k);
+      const SurfacePoint at = surface.sample_at(x[0], x[1], random);
+      const Vec3 direction = cosine_direction(front ? at.normal : -at.normal, x[2], x[3]);
       record(face, k, scene_.closest_hit(at.position_m, direction, 0.0, surface.start(at, front)), direction);
     }
   }

@@ -7,6 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
+
+#include "lighting/trace/low_discrepancy.h"
+#include "sim/base/random.h"
 
 namespace sunfleck::trace {
 
@@ -20,6 +24,13 @@ inline std::size_t group_of(std::size_t face, int ray) {
 inline int rays_in_group(int rays, std::size_t face, std::size_t group) {
   const int first = static_cast<int>((group + kGroups - face % kGroups) % kGroups);
   return (rays - first + kGroups - 1) / kGroups;
+}
+
+// Where ray number `ray` of a face starts and goes, as a point of [0, 1)^4: every group of every face has its
+// own scrambled sequence, so that groups are independent of each other, as the jackknife takes them to be.
+inline std::array<double, 4> point_of_group(std::uint64_t seed, std::size_t face, int ray) {
+  return scrambled_point(mix_seed(seed, face * kGroups + group_of(face, ray)),
+                         static_cast<std::uint32_t>(ray / kGroups));
 }
 
 // Variance of an estimate from its values without each group; `fewest_rays` per face it rests on. The first

@@ -6,6 +6,7 @@
 #include "lighting/base/summaries.h"
 #include "lighting/trace/band_result.h"
 #include "lighting/trace/hit_matrix.h"
+#include "lighting/trace/jackknife.h"
 #include "lighting/trace/open_plane.h"
 #include "lighting/trace/ray_scene.h"
 #include "lighting/trace/receivers.h"
@@ -138,7 +139,7 @@ class Reference {
   // That every number rests on.
   int fewest_rays() const { return sun_rays_ > 0 ? std::min(rays_, sun_rays_) : rays_; }
 
-  // Doubles the rays that the error comes from; false when the target is met or nothing more is allowed.
+  // Adds to the rays that the error comes from; false when the target is met or nothing more is allowed.
   bool more_rays_wanted() {
     if (!(options_.target_relative_error > 0.0)) return false;
     const auto worst = std::max_element(shares_.begin(), shares_.end(), [](const auto& a, const auto& b) {
@@ -147,7 +148,10 @@ class Reference {
     if (fewest_rays() >= 2 && worst->relative() <= options_.target_relative_error) return false;
     const bool rays_short = fewest_rays() < 2 || worst->by_rays * 3.0 >= worst->by_sun_rays;
     const bool sun_short = sun_rays_ > 0 && (fewest_rays() < 2 || worst->by_sun_rays * 3.0 >= worst->by_rays);
-    const int rays = rays_short ? more(rays_) : rays_, sun_rays = sun_short ? more(sun_rays_) : sun_rays_;
+    const double excess =
+        fewest_rays() < 2 ? 2.0 : std::pow(worst->relative() / options_.target_relative_error, 2);
+    const int rays = rays_short ? more(rays_, excess) : rays_;
+    const int sun_rays = sun_short ? more(sun_rays_, excess) : sun_rays_;
     const bool fits = hit_matrix_bytes(receivers_.face_count(), rays) <= options_.memory_limit_bytes;
     if (!fits || (rays == rays_ && sun_rays == sun_rays_)) {
       map_.provenance.notes.push_back(
@@ -161,7 +165,12 @@ class Reference {
     return true;
   }
 
-  int more(int rays) const { return std::max(rays, std::min(2 * rays, options_.max_rays_per_face)); }
+  // Squared errors fall at least as 1 / rays; what a few rays say of their error is not trusted far.
+  int more(int rays, double excess) const {
+    const double wanted = rays * std::clamp(1.05 * excess, 1.125, 4.0);
+    const int next = std::max(2, kGroups * static_cast<int>(std::ceil(wanted / kGroups)));
+    return std::max(rays, std::min(next, options_.max_rays_per_face));
+  }
 
   void finish() {
     map_.sunlit_fraction.assign(receivers_.foliage_count(), 0.0f);

@@ -17,8 +17,8 @@ struct ReferenceOptions {
   std::uint64_t seed = 1;
   int rays_per_face = 64;         // 1 .. 65536, cosine-distributed, from random points of the face
   int sun_rays_per_element = 64;  // 1 .. 65536
-  // Stop at this RMS standard error per element relative to the mean irradiance, doubling the rays from the
-  // numbers above; 0: exactly the rays above.
+  // Stop at this RMS standard error per element relative to the mean irradiance, adding rays to the numbers
+  // above as the error found asks for; 0: exactly the rays above.
   double target_relative_error = 0;
   int max_rays_per_face = 4096;
   double convergence = 1e-4;  // of scattered power between two iterations, relative

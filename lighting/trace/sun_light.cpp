@@ -13,8 +13,9 @@ namespace {
 void cast(SunLight& sun, const SurfaceSampler& surface, std::size_t s, int k, const RayScene& scene,
           const Receivers& receivers, const Illumination& light, std::uint64_t seed) {
   RandomStream random(seed, s, RandomPurpose::kSunRays, 2 * static_cast<std::uint32_t>(k));
-  const SurfacePoint at = surface.sample(random);
-  const Vec3 to_sun = cone_direction(light.to_sun, light.sun_half_angle_rad, random);
+  const auto x = point_of_group(mix_seed(seed, static_cast<std::uint64_t>(RandomPurpose::kSunRays)), s, k);
+  const SurfacePoint at = surface.sample_at(x[0], x[1], random);
+  const Vec3 to_sun = cone_direction(light.to_sun, light.sun_half_angle_rad, x[2], x[3]);
   const double cosine = glm::dot(at.normal, to_sun);
   if (scene.occluded(at.position_m, to_sun, 0.0, surface.start(at, cosine >= 0.0))) return;
   ++sun.visible[s];

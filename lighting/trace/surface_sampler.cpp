@@ -35,16 +35,25 @@ SurfacePoint on_side(const ConeFrustum& cone, double part, double turn) {
 }  // namespace
 
 Vec3 cosine_direction(const Vec3& normal, RandomStream& random) {
-  const double sin2 = random.uniform(), turn = 2.0 * kPi * random.uniform();
+  const double x = random.uniform(), y = random.uniform();
+  return cosine_direction(normal, x, y);
+}
+
+Vec3 cosine_direction(const Vec3& normal, double sin2, double y) {
   // Never along the surface itself.
-  return around(normal, std::sqrt(std::max(1e-16, 1.0 - sin2)), std::sqrt(sin2), turn);
+  return around(normal, std::sqrt(std::max(1e-16, 1.0 - sin2)), std::sqrt(sin2), 2.0 * kPi * y);
 }
 
 Vec3 cone_direction(const Vec3& axis, double half_angle_rad, RandomStream& random) {
   if (half_angle_rad == 0.0) return axis;
-  const double drop = random.uniform() * 2.0 * std::pow(std::sin(0.5 * half_angle_rad), 2);  // 1 - cos
-  return glm::normalize(
-      around(axis, 1.0 - drop, std::sqrt(drop * (2.0 - drop)), 2.0 * kPi * random.uniform()));
+  const double x = random.uniform(), y = random.uniform();
+  return cone_direction(axis, half_angle_rad, x, y);
+}
+
+Vec3 cone_direction(const Vec3& axis, double half_angle_rad, double x, double y) {
+  if (half_angle_rad == 0.0) return axis;
+  const double drop = x * 2.0 * std::pow(std::sin(0.5 * half_angle_rad), 2);  // 1 - cos
+  return glm::normalize(around(axis, 1.0 - drop, std::sqrt(drop * (2.0 - drop)), 2.0 * kPi * y));
 }
 
 Vec3 any_direction(RandomStream& random) {

@@ -45,8 +45,10 @@ class SurfaceSampler {
 
 // A direction with density cos / pi around the unit vector `normal`.
 Vec3 cosine_direction(const Vec3& normal, RandomStream& random);
+Vec3 cosine_direction(const Vec3& normal, double x, double y);  // from two numbers in [0, 1)
 // A direction evenly within `half_angle` of the unit vector `axis`.
 Vec3 cone_direction(const Vec3& axis, double half_angle_rad, RandomStream& random);
+Vec3 cone_direction(const Vec3& axis, double half_angle_rad, double x, double y);
 // A direction with even density over the sphere.
 Vec3 any_direction(RandomStream& random);
 
