@@ -16,15 +16,15 @@ std::vector<std::vector<std::uint32_t>> instances_of_prototypes(const Forest& fo
 std::uint64_t fewest_bytes(const trace::Receivers& receivers, int links_per_face) {
   const Forest& forest = receivers.forest();
   const auto stands = instances_of_prototypes(forest);
-  // A link, in a row of its face; two counts and an offset per face of a tree, one count per ground cell.
+  // A link, in a row of its face; counts and a weight for two lobes per face of a tree, counts per instance.
   const std::uint64_t per_row = 4 * static_cast<std::uint64_t>(links_per_face);
-  std::uint64_t bytes = receivers.ground().count() * (per_row + 2);
+  std::uint64_t bytes = receivers.ground().count() * (per_row + 3 * 2);
   for (std::size_t p = 0; p < stands.size(); ++p) {
     if (stands[p].empty()) continue;
     const Prototype& tree = forest.prototypes[p];
     const std::uint64_t faces =
         2 * (tree.foliage.size() + trace::group_wood(tree).count() + tree.wood_mesh.size());
-    bytes += faces * (per_row + 12);
+    bytes += faces * (per_row + 2 * (4 * 2 + 4) + stands[p].size() * 2 * 3 * 2);
   }
   // First light, its sky and ground parts, direct light, four fields of the iteration; optics per surface.
   constexpr std::uint64_t kPerFace = 8 * 4 + 8;

@@ -15,32 +15,40 @@ Forest alone(const Forest& forest, PrototypeId prototype) {
   return tree;
 }
 
-Vec3 around(const Vec3& axis, double along, double turn) {
-  const Basis basis = basis_around(axis);
-  const double across = std::sqrt(std::max(0.0, 1.0 - along * along));
-  return glm::normalize(across * (std::cos(turn) * basis.tangent + std::sin(turn) * basis.bitangent) +
-                        along * axis);
-}
-
 }  // namespace
 
 LoneTree::LoneTree(const Forest& forest, PrototypeId prototype)
     : forest_(alone(forest, prototype)), receivers_(forest_, no_ground_) {}
 
-FaceRays::FaceRays(const trace::SurfaceSampler& surface, bool front, std::size_t face, std::uint64_t seed)
-    : surface_(surface), front_(front), face_(face), seed_(seed), points_(mix_seed(seed, face)) {}
+LobeRays::LobeRays(const trace::SurfaceSampler& surface, std::size_t surface_key, Lobe lobe, Part part,
+                   std::uint64_t seed)
+    : surface_(surface),
+      front_(lobe == kFrontUp || lobe == kFrontDown),
+      part_(part),
+      key_(kLobes * surface_key + lobe),
+      points_(mix_seed(seed, key_)) {}
 
-LinkRay FaceRays::ray(int k) const {
+LinkRay LobeRays::ray(int k) const {
   const Point4 p = owen_point(static_cast<std::uint32_t>(k), points_);
   // Of these only a shoot takes numbers: where along its axis a needle sits.
-  RandomStream random(seed_, face_, RandomPurpose::kRaysFront, 2 * static_cast<std::uint32_t>(k));
+  RandomStream random(points_, key_, RandomPurpose::kRaysFront, 2 * static_cast<std::uint32_t>(k));
   const trace::SurfacePoint at = surface_.sample_at(p[2], p[3], random);
-  const double turn = 2.0 * kPi * p[1];
   // A needle turned any way sends its cosine-distributed rays anywhere alike.
-  const Vec3 direction = surface_.is_shoot() ? around({0, 0, 1}, 2.0 * p[0] - 1.0, turn)
-                                             : around(front_ ? at.normal : -at.normal,
-                                                      std::sqrt(std::max(1e-16, 1.0 - p[0])), turn);
+  const Vec3 direction = surface_.is_shoot()
+                             ? even_direction(part_, p[0], p[1])
+                             : cosine_direction(front_ ? at.normal : -at.normal, part_, p[0], p[1]);
   return {at.position_m, direction, surface_.start(at, front_)};
+}
+
+Lobes lobes_of(const LoneTree& tree, std::size_t surface, int links_per_face) {
+  if (surface >= tree.receivers().foliage_count()) return whole_lobes(links_per_face);
+  const FoliageElement& e = tree.forest().prototypes[0].foliage[surface];
+  return leaf_lobes(links_per_face, e.shape == ElementShape::kShoot ? 0.0 : element_normal(e).z);
+}
+
+Part part_of(const LoneTree& tree, std::size_t surface, Lobe lobe) {
+  if (surface >= tree.receivers().foliage_count()) return Part::kWhole;
+  return lobe == kFrontUp || lobe == kBackUp ? Part::kUp : Part::kDown;
 }
 
 LinkRay in_world(const LinkRay& ray, const Forest& forest, std::uint32_t instance) {

@@ -7,6 +7,7 @@
 
 #include <memory>
 
+#include "lighting/links/link_lobes.h"
 #include "lighting/trace/receivers.h"
 #include "lighting/trace/surface_sampler.h"
 
@@ -30,18 +31,23 @@ class LoneTree {
   const trace::Receivers receivers_;
 };
 
-// The rays of one face of a surface.
-class FaceRays {
+// The rays of one lobe of a surface. `surface_key` names the surface among all of the same seed.
+class LobeRays {
  public:
-  FaceRays(const trace::SurfaceSampler& surface, bool front, std::size_t face, std::uint64_t seed);
+  LobeRays(const trace::SurfaceSampler& surface, std::size_t surface_key, Lobe lobe, Part part,
+           std::uint64_t seed);
   LinkRay ray(int k) const;
 
  private:
   const trace::SurfaceSampler& surface_;
   bool front_;
-  std::size_t face_;
-  std::uint64_t seed_, points_;
+  Part part_;
+  std::uint64_t key_, points_;
 };
+
+// The lobes of a surface of a tree, and the part of the sphere each looks into.
+Lobes lobes_of(const LoneTree& tree, std::size_t surface, int links_per_face);
+Part part_of(const LoneTree& tree, std::size_t surface, Lobe lobe);
 
 // The same ray cast by an instance of the tree, in the world.
 LinkRay in_world(const LinkRay& ray, const Forest& forest, std::uint32_t instance);

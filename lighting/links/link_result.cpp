@@ -38,11 +38,13 @@ class BandFiller {
   }
 
   LostShares lost_shares(const SurfaceRange& range, std::size_t local) const {
-    const double links = p_.table.links_per_face;
-    const auto share = [&](const FaceLinks& l) { return static_cast<double>(l.lost.size()) / links; };
+    const auto share = [](const LobeLinks& l) {
+      return l.per_sky * static_cast<double>(l.sky.size()) +
+             l.per_hit * static_cast<double>(l.dark_ground.size());
+    };
     if (range.instance == SurfaceRange::kGround) return {share(p_.table.of_ground(local)), 0.0};
-    return {share(p_.table.of_tree_face(range.instance, 2 * local)),
-            share(p_.table.of_tree_face(range.instance, 2 * local + 1))};
+    const auto lobe = [&](Lobe l) { return share(p_.table.of_lobe(range.instance, local, l)); };
+    return {lobe(kFrontUp) + lobe(kFrontDown), lobe(kBackUp) + lobe(kBackDown)};
   }
 
   void add_flows(const LitSurface& lit, double front_w_m2, double back_w_m2, const LostShares& lost,

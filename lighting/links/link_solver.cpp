@@ -136,7 +136,7 @@ std::vector<SurfaceRange> surface_ranges(const LinkTable& table, std::size_t gro
       ranges.push_back({instance, begin, std::min(count, begin + most)});
   };
   for (std::uint32_t i = 0; i < table.instances.size(); ++i)
-    add(i, table.trees[table.instances[i].prototype].faces() / 2);
+    add(i, table.trees[table.instances[i].prototype].surfaces());
   add(SurfaceRange::kGround, ground_cells);
   return ranges;
 }
@@ -163,19 +163,18 @@ LitSurface scattered_light(const LinkProblem& p, const SurfaceRange& range, std:
                            const std::vector<float>& radiosity_w_m2) {
   LitSurface lit = dark_surface(p.table, p.receivers, range, local);
   const float* all = radiosity_w_m2.data();
-  const double links = p.table.links_per_face;
   if (!lit.has_back) {
-    lit.front_w_m2 = sum_met(p.table.of_ground(local), all, all, all) / links;
+    const LobeLinks links = p.table.of_ground(local);
+    lit.front_w_m2 = links.per_hit * sum_met(links, all, all, all);
     return lit;
   }
   const InstanceFaces& at = p.table.instances[range.instance];
-  const auto met = [&](std::size_t face) {
-    return sum_met(p.table.of_tree_face(range.instance, face), all + at.first_leaf, all + at.first_wood,
-                   all) /
-           links;
+  const auto met = [&](Lobe lobe) {
+    const LobeLinks links = p.table.of_lobe(range.instance, local, lobe);
+    return links.per_hit * sum_met(links, all + at.first_leaf, all + at.first_wood, all);
   };
-  lit.front_w_m2 = met(2 * local);
-  lit.back_w_m2 = met(2 * local + 1);
+  lit.front_w_m2 = met(kFrontUp) + met(kFrontDown);
+  lit.back_w_m2 = met(kBackUp) + met(kBackDown);
   if (lit.is_shoot) lit.front_w_m2 = lit.back_w_m2 = 0.5 * (lit.front_w_m2 + lit.back_w_m2);
   return lit;
 }

@@ -6,22 +6,18 @@
 namespace sunfleck::links {
 namespace {
 
-// Of one face, by all its links.
+// Of one face.
 struct Outer {
   double sky = 0, beyond = 0;
+  Outer operator+(const Outer& o) const { return {sky + o.sky, beyond + o.beyond}; }
 };
 
-Outer outer_of(const FaceLinks& links, std::uint32_t ground_beyond, const Illumination& light,
-               double links_per_face) {
+Outer outer_of(const LobeLinks& links, std::uint32_t ground_beyond, const Illumination& light) {
   Outer sum;
-  for (const std::uint32_t end : links.lost) {
-    // Cosine-distributed: irradiance is pi times the mean radiance.
-    if (is_sky(end))
-      sum.sky += kPi * relative_sky_radiance(light.sky, sky_direction(end).z);
-    else if (end == ground_beyond)
-      sum.beyond += 1.0;
-  }
-  return {sum.sky / links_per_face, sum.beyond / links_per_face};
+  for (const std::uint32_t end : links.sky)  // cosine-distributed: irradiance is pi times the mean radiance
+    sum.sky += kPi * relative_sky_radiance(light.sky, sky_direction(end).z);
+  for (const std::uint32_t end : links.dark_ground) sum.beyond += end == ground_beyond ? 1.0 : 0.0;
+  return {links.per_sky * sum.sky, links.per_hit * sum.beyond};
 }
 
 }  // namespace
@@ -32,9 +28,7 @@ OuterLight outer_light(const LinkTable& table, const trace::Receivers& receivers
   OuterLight outer;
   outer.sky.resize(receivers.face_count());
   outer.beyond.resize(receivers.face_count());
-  const auto of = [&](const FaceLinks& l) {
-    return outer_of(l, receivers.ground_beyond(), light, table.links_per_face);
-  };
+  const auto of = [&](const LobeLinks& l) { return outer_of(l, receivers.ground_beyond(), light); };
   const auto set = [&](std::size_t face, const Outer& o) {
     outer.sky[face] = static_cast<float>(o.sky);
     outer.beyond[face] = static_cast<float>(o.beyond);
@@ -47,8 +41,8 @@ OuterLight outer_light(const LinkTable& table, const trace::Receivers& receivers
           set(s.face, of(table.of_ground(local)));
           continue;
         }
-        Outer front = of(table.of_tree_face(ranges[r].instance, 2 * local));
-        Outer back = of(table.of_tree_face(ranges[r].instance, 2 * local + 1));
+        const auto lobe = [&](Lobe l) { return of(table.of_lobe(ranges[r].instance, local, l)); };
+        Outer front = lobe(kFrontUp) + lobe(kFrontDown), back = lobe(kBackUp) + lobe(kBackDown);
         if (s.is_shoot) front = back = {0.5 * (front.sky + back.sky), 0.5 * (front.beyond + back.beyond)};
         set(s.face, front);
         set(s.face + 1, back);

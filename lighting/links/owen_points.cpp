@@ -6,7 +6,7 @@
 namespace sunfleck::links {
 namespace {
 
-constexpr std::size_t kBits = 8;  // of the index
+constexpr std::size_t kBits = 10;  // of the index
 using Directions = std::array<std::array<std::uint32_t, kBits>, 4>;
 
 // Bit `k` of the index toggles these bits of the fraction. Primitive polynomials and first m of Joe and Kuo:

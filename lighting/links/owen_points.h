@@ -12,10 +12,10 @@ namespace sunfleck::links {
 
 using Point4 = std::array<double, 4>;  // each in [0, 1)
 
-// Point number `index` < 256 of the set named by `seed`.
+// Point number `index` < 1024 of the set named by `seed`.
 Point4 owen_point(std::uint32_t index, std::uint64_t seed);
 
-// The same set unscrambled: the first 256 points of Sobol's sequence as 32-bit fractions.
+// The same set unscrambled: the first 1024 points of Sobol's sequence as 32-bit fractions.
 std::array<std::uint32_t, 4> sobol_bits(std::uint32_t index);
 
 }  // namespace sunfleck::links

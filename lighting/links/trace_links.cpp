@@ -6,6 +6,7 @@
 
 #include "lighting/links/link_ends.h"
 #include "lighting/links/link_memory.h"
+#include "lighting/links/link_row.h"
 #include "lighting/trace/visiting_order.h"
 #include "sim/base/parallel.h"
 
@@ -19,15 +20,6 @@ std::uint32_t end_of(const Receivers& receivers, const RayHit& hit, const Vec3& 
   return hit.kind == HitKind::kSky ? sky_end(direction) : receivers.met_by(hit);
 }
 
-bool gives_light_back(const Receivers& receivers, std::uint32_t end) { return end < receivers.sky(); }
-
-// Puts the ends that are faces first, keeping their order; returns how many there are.
-std::uint16_t faces_first(const Receivers& receivers, std::span<std::uint32_t> ends) {
-  const auto after = std::stable_partition(
-      ends.begin(), ends.end(), [&](std::uint32_t end) { return gives_light_back(receivers, end); });
-  return static_cast<std::uint16_t>(after - ends.begin());
-}
-
 bool is_on_tree(const RayHit& hit) { return hit.kind != HitKind::kSky && hit.kind != HitKind::kGround; }
 
 // The face of its own tree that a hit lies on, as the tree alone numbers them.
@@ -36,33 +28,44 @@ std::uint32_t own_face(const LoneTree& tree, RayHit hit) {
   return tree.receivers().met_by(hit);
 }
 
-// Calls visit(surface, side, face) for every face of the tree, neighbours in space one after the other.
-using FaceVisit = std::function<void(const SurfaceSampler&, bool front, std::size_t face)>;
-void for_each_face(const LoneTree& tree, const RunControl& control, const FaceVisit& visit) {
+// Calls visit(place) for every lobe of the tree, neighbours in space one after the other.
+using LobeVisit = std::function<void(const LobePlace&)>;
+void for_each_lobe(const LoneTree& tree, int links_per_face, std::uint64_t seed, const RunControl& control,
+                   const LobeVisit& visit) {
   const std::vector<std::uint32_t> order = trace::visiting_order(tree.receivers());
   for_each_chunk(order.size(), 8, control, {}, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const SurfaceSampler surface(tree.receivers(), order[i]);
-      for (std::size_t side = 0; side < 2; ++side) {
-        control.check();
-        visit(surface, side == 0, 2 * std::size_t{order[i]} + side);
-      }
+      control.check();
+      const std::size_t s = order[i];
+      const SurfaceSampler sampler(tree.receivers(), s);
+      const Lobes lobes = lobes_of(tree, s, links_per_face);
+      for (const Lobe lobe : {kFrontUp, kFrontDown, kBackUp, kBackDown})
+        visit({s, kLobes * s + lobe, LobeRays(sampler, s, lobe, part_of(tree, s, lobe), seed),
+               lobes[lobe].links, lobes[lobe].cast});
     }
   });
 }
 
-TreeLinks empty_links(const LoneTree& tree, std::size_t links, bool stands_once) {
+TreeLinks empty_links(const LoneTree& tree, int links_per_face) {
   TreeLinks t;
   t.foliage = static_cast<std::uint32_t>(tree.receivers().foliage_count());
   t.wood = static_cast<std::uint32_t>(tree.receivers().wood_count());
-  t.stands_once = stands_once;
-  t.rows.resize(t.faces() * links);
-  t.leaf_hits.resize(t.faces());
-  t.own_hits.resize(t.faces());
+  t.rows.resize(t.surfaces() * 2 * static_cast<std::size_t>(links_per_face));
+  t.leaf_hits.resize(t.surfaces() * kLobes);
+  t.own_hits.resize(t.surfaces() * kLobes);
+  for (std::size_t s = 0; s < t.surfaces(); ++s)
+    for (const LobeShare& lobe : lobes_of(tree, s, links_per_face)) {
+      t.links.push_back(static_cast<std::uint16_t>(lobe.links));
+      t.cast.push_back(static_cast<std::uint16_t>(lobe.cast));
+      t.weight.push_back(static_cast<float>(lobe.weight));
+    }
   for (const FoliageElement& e : tree.forest().prototypes[0].foliage)
     t.is_shoot.push_back(e.shape == ElementShape::kShoot);
   return t;
 }
+
+// Of a prototype that stands more than once, per lobe: rays that leave it, of those that are not kept.
+using MoreExits = std::vector<std::vector<std::uint16_t>>;
 
 class Tracer {
  public:
@@ -76,83 +79,100 @@ class Tracer {
   // Of a prototype whose only instance this is: straight through the forest.
   void trace_only_instance(const LoneTree& tree, std::uint32_t instance) {
     TreeLinks& t = tree_links(instance);
-    t = empty_links(tree, links_, true);
+    t = empty_links(tree, table_.links_per_face);
     InstanceEnds& out = table_.beyond[instance];
-    out.faces_met.resize(t.faces());
-    for_each_face(tree, control_, [&](const SurfaceSampler& surface, bool front, std::size_t face) {
-      Row row;
-      const FaceRays rays(surface, front, face, tree_seed(instance));
-      for (std::size_t k = 0; k < links_; ++k) {
-        const LinkRay ray = in_world(rays.ray(static_cast<int>(k)), scene_.forest, instance);
-        const RayHit hit = scene_.rays.closest_hit(ray.origin_m, ray.direction, 0.0, ray.from);
-        if (is_on_tree(hit) && hit.instance == instance)
-          row.add_own(t, own_face(tree, hit));
-        else
-          row.beyond.push_back(end_of(scene_.receivers, hit, ray.direction));
-      }
-      out.faces_met[face] = faces_first(scene_.receivers, row.beyond);
-      row.store(t, face, links_);
+    make_room(out, t.links.size(), 0);
+    for_each_lobe(tree, table_.links_per_face, tree_seed(instance), control_, [&](const LobePlace& at) {
+      LobeRow row(2 * t.foliage);
+      std::size_t more_sky = 0;
+      const auto ray = [&](int k) { return in_world(at.rays.ray(k), scene_.forest, instance); };
+      fill(
+          row, at, [&](int k) { return found_from(tree, ray(k), instance); },
+          [](const Found& f) { return !f.own && is_sky(f.what); },
+          [&](int k) {
+            const LinkRay r = ray(k);
+            return !scene_.rays.occluded(r.origin_m, r.direction, 0.0, r.from);
+          },
+          [&](std::uint32_t) { ++more_sky; });
+      row.store(t, at, links_);
+      const std::size_t own = t.own_hits[at.lobe];
+      store_ends(scene_.receivers, {row_of(t, at, links_) + own, static_cast<std::size_t>(at.links) - own},
+                 at.lobe, more_sky, out);
     });
   }
 
   // Of a prototype that stands more than once: alone. Ends are the numbers of the rays that leave.
-  void trace_alone(const LoneTree& tree, std::uint32_t first_instance) {
+  MoreExits trace_alone(const LoneTree& tree, std::uint32_t first_instance) {
     TreeLinks& t = tree_links(first_instance);
-    t = empty_links(tree, links_, false);
+    t = empty_links(tree, table_.links_per_face);
+    MoreExits more(t.links.size());
     const RayScene scene(tree.forest(), {.ground = false}, control_);
-    for_each_face(tree, control_, [&](const SurfaceSampler& surface, bool front, std::size_t face) {
-      Row row;
-      const FaceRays rays(surface, front, face, tree_seed(first_instance));
-      for (std::size_t k = 0; k < links_; ++k) {
-        const LinkRay ray = rays.ray(static_cast<int>(k));
-        const RayHit hit = scene.closest_hit(ray.origin_m, ray.direction, 0.0, ray.from);
-        if (hit.kind == HitKind::kSky)
-          row.beyond.push_back(static_cast<std::uint32_t>(k));
-        else
-          row.add_own(t, own_face(tree, hit));
-      }
-      row.store(t, face, links_);
+    for_each_lobe(tree, table_.links_per_face, tree_seed(first_instance), control_, [&](const LobePlace& at) {
+      LobeRow row(2 * t.foliage);
+      fill(
+          row, at,
+          [&](int k) {
+            const LinkRay r = at.rays.ray(k);
+            const RayHit hit = scene.closest_hit(r.origin_m, r.direction, 0.0, r.from);
+            return hit.kind == HitKind::kSky ? Found{false, static_cast<std::uint32_t>(k)}
+                                             : Found{true, own_face(tree, hit)};
+          },
+          [](const Found& f) { return !f.own; },
+          [&](int k) {
+            const LinkRay r = at.rays.ray(k);
+            return !scene.occluded(r.origin_m, r.direction, 0.0, r.from);
+          },
+          [&](std::uint32_t k) { more[at.lobe].push_back(static_cast<std::uint16_t>(k)); });
+      row.store(t, at, links_);
     });
     t.first_exit.assign(1, 0);
-    for (std::size_t face = 0; face < t.faces(); ++face)
-      t.first_exit.push_back(t.first_exit.back() + links_ - t.own_hits[face]);
+    for (std::size_t l = 0; l < t.links.size(); ++l)
+      t.first_exit.push_back(t.first_exit.back() + t.links[l] - t.own_hits[l]);
+    return more;
   }
 
   // The rays of such a tree that leave it, from one of its instances.
-  void trace_exits(const LoneTree& tree, std::uint32_t instance) {
+  void trace_exits(const LoneTree& tree, const MoreExits& more, std::uint32_t instance) {
     const TreeLinks& t = tree_links(instance);
     InstanceEnds& out = table_.beyond[instance];
-    out.ends.resize(t.first_exit.back());
-    out.faces_met.resize(t.faces());
-    for_each_face(tree, control_, [&](const SurfaceSampler& surface, bool front, std::size_t face) {
-      const FaceRays rays(surface, front, face, tree_seed(instance));
-      const std::uint32_t* leaving = t.rows.data() + face * links_ + t.own_hits[face];
-      const std::span<std::uint32_t> ends(out.ends.data() + t.first_exit[face], links_ - t.own_hits[face]);
-      for (std::size_t i = 0; i < ends.size(); ++i) {
-        const LinkRay ray = in_world(rays.ray(static_cast<int>(leaving[i])), scene_.forest, instance);
-        ends[i] = end_of(scene_.receivers, beyond_own_tree(ray, instance), ray.direction);
+    make_room(out, t.links.size(), t.first_exit.back());
+    for_each_lobe(tree, table_.links_per_face, tree_seed(instance), control_, [&](const LobePlace& at) {
+      const std::size_t own = t.own_hits[at.lobe], count = static_cast<std::size_t>(at.links) - own;
+      const std::uint32_t* leaving = row_of(t, at, links_) + own;
+      const std::span<std::uint32_t> ends(out.ends.data() + t.first_exit[at.lobe], count);
+      const auto end_of_ray = [&](std::uint32_t k) {
+        const LinkRay ray = in_world(at.rays.ray(static_cast<int>(k)), scene_.forest, instance);
+        return end_of(scene_.receivers, beyond_own_tree(ray, instance), ray.direction);
+      };
+      std::size_t skies = 0, more_sky = 0;
+      for (std::size_t i = 0; i < count; ++i) skies += is_sky(ends[i] = end_of_ray(leaving[i])) ? 1 : 0;
+      for (const std::uint16_t k : more[at.lobe]) {
+        const std::uint32_t end = end_of_ray(k);
+        more_sky += is_sky(end) ? 1 : 0;
+        // A kind that only these rays saw takes the place of one link.
+        if (count > 0 && is_sky(end) && skies == 0) ends[0] = end, ++skies, --more_sky;
+        if (count > 1 && !is_sky(end) && own == 0 && skies == count) ends[0] = end, --skies, ++more_sky;
       }
-      out.faces_met[face] = faces_first(scene_.receivers, ends);
+      store_ends(scene_.receivers, ends, at.lobe, more_sky, out);
     });
   }
 
   void trace_ground() {
     const Receivers& r = scene_.receivers;
     InstanceEnds& out = table_.ground;
-    out.ends.resize(r.ground().count() * links_);
-    out.faces_met.resize(r.ground().count());
+    make_room(out, r.ground().count(), r.ground().count() * links_);
     for_each_chunk(r.ground().count(), 16, control_, {}, [&](std::size_t begin, std::size_t end) {
       for (std::size_t cell = begin; cell < end; ++cell) {
         control_.check();
         const SurfaceSampler surface(r, r.two_faced_count() + cell);
-        const FaceRays rays(surface, true, cell, mix_seed(seed_, kGroundSeed));
+        const LobeRays rays(surface, cell, kFrontUp, Part::kWhole, mix_seed(seed_, kGroundSeed));
         const std::span<std::uint32_t> row(out.ends.data() + cell * links_, links_);
         for (std::size_t k = 0; k < links_; ++k) {
           const LinkRay ray = rays.ray(static_cast<int>(k));
           row[k] =
               end_of(r, scene_.rays.closest_hit(ray.origin_m, ray.direction, 0.0, ray.from), ray.direction);
         }
-        out.faces_met[cell] = faces_first(r, row);
+        store_ends(r, row, cell, 0, out);
       }
     });
   }
@@ -160,22 +180,11 @@ class Tracer {
  private:
   static constexpr std::uint64_t kGroundSeed = ~std::uint64_t{0};
 
-  // A row while it is filled.
-  struct Row {
-    std::vector<std::uint32_t> leaves, wood, beyond;
-    void add_own(const TreeLinks& t, std::uint32_t face) {
-      if (face < 2 * t.foliage)
-        leaves.push_back(face);
-      else
-        wood.push_back(face - 2 * t.foliage);
-    }
-    void store(TreeLinks& t, std::size_t face, std::size_t links) const {
-      auto at = t.rows.begin() + static_cast<std::ptrdiff_t>(face * links);
-      for (const auto* part : {&leaves, &wood, &beyond}) at = std::copy(part->begin(), part->end(), at);
-      t.leaf_hits[face] = static_cast<std::uint16_t>(leaves.size());
-      t.own_hits[face] = static_cast<std::uint16_t>(leaves.size() + wood.size());
-    }
-  };
+  Found found_from(const LoneTree& tree, const LinkRay& ray, std::uint32_t instance) const {
+    const RayHit hit = scene_.rays.closest_hit(ray.origin_m, ray.direction, 0.0, ray.from);
+    if (is_on_tree(hit) && hit.instance == instance) return {true, own_face(tree, hit)};
+    return {false, end_of(scene_.receivers, hit, ray.direction)};
+  }
 
   TreeLinks& tree_links(std::uint32_t instance) {
     return table_.trees[scene_.forest.instances[instance].prototype.value];
@@ -227,7 +236,7 @@ LinkTable empty_table(const LinkScene& scene, int links_per_face) {
 }
 
 std::uint64_t exit_bytes(const TreeLinks& tree) {
-  return tree.first_exit.empty() ? 0 : 4 * tree.first_exit.back() + 2 * tree.faces();
+  return tree.first_exit.empty() ? 0 : 4 * tree.first_exit.back();
 }
 
 }  // namespace
@@ -239,6 +248,7 @@ LinkTable trace_links(const LinkScene& scene, int links_per_face, std::uint64_t 
   const std::vector<std::vector<std::uint32_t>> stands = instances_of_prototypes(scene.forest);
   std::vector<std::unique_ptr<LoneTree>> trees(stands.size());
   const double steps = static_cast<double>(stands.size() + scene.forest.instances.size());
+  std::vector<MoreExits> more(stands.size());
   double done = 0.0;
   const auto step = [&] { control.report("tracing links", ++done / steps); };
   std::uint64_t bytes = fewest_bytes(scene.receivers, links_per_face);
@@ -248,13 +258,13 @@ LinkTable trace_links(const LinkScene& scene, int links_per_face, std::uint64_t 
     if (stands[p].size() == 1)
       tracer.trace_only_instance(*trees[p], stands[p][0]);
     else
-      tracer.trace_alone(*trees[p], stands[p][0]);
+      more[p] = tracer.trace_alone(*trees[p], stands[p][0]);
     bytes += stands[p].size() * exit_bytes(table.trees[p]);
     check_memory(bytes, links_per_face, memory_limit_bytes);
   }
   for (std::size_t p = 0; p < stands.size(); ++p)
     for (const std::uint32_t instance : stands[p]) {
-      if (stands[p].size() > 1) tracer.trace_exits(*trees[p], instance);
+      if (stands[p].size() > 1) tracer.trace_exits(*trees[p], more[p], instance);
       step();
     }
   tracer.trace_ground();
