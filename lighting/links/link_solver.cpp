@@ -159,6 +159,24 @@ LitSurface dark_surface(const LinkTable& table, const trace::Receivers& receiver
   return lit;
 }
 
+namespace {
+
+// What neighbours change in the links of a surface: the light they give less that of the faces behind them.
+void cut_links(const LinkProblem& p, std::size_t instance, std::size_t local, const float* all,
+               LitSurface& lit) {
+  const std::vector<CutLink>& cut = p.table.beyond[instance].cut;
+  const auto first = static_cast<std::uint32_t>(kLobes * local);
+  for (auto c = std::lower_bound(cut.begin(), cut.end(), CutLink{first, 0, 0});
+       c != cut.end() && c->lobe < first + kLobes; ++c) {
+    const auto lobe = static_cast<Lobe>(c->lobe - first);
+    const double per_hit = p.table.of_lobe(instance, local, lobe).per_hit;
+    double& to = lobe == kFrontUp || lobe == kFrontDown ? lit.front_w_m2 : lit.back_w_m2;
+    to = std::max(0.0, to + per_hit * (static_cast<double>(all[c->met]) - all[c->own]));
+  }
+}
+
+}  // namespace
+
 LitSurface scattered_light(const LinkProblem& p, const SurfaceRange& range, std::size_t local,
                            const std::vector<float>& radiosity_w_m2) {
   LitSurface lit = dark_surface(p.table, p.receivers, range, local);
@@ -175,6 +193,7 @@ LitSurface scattered_light(const LinkProblem& p, const SurfaceRange& range, std:
   };
   lit.front_w_m2 = met(kFrontUp) + met(kFrontDown);
   lit.back_w_m2 = met(kBackUp) + met(kBackDown);
+  if (!p.table.beyond[range.instance].cut.empty()) cut_links(p, range.instance, local, all, lit);
   if (lit.is_shoot) lit.front_w_m2 = lit.back_w_m2 = 0.5 * (lit.front_w_m2 + lit.back_w_m2);
   return lit;
 }

@@ -39,7 +39,8 @@ std::uint64_t bytes_of(const std::vector<T>& v) {
 }
 
 std::uint64_t bytes_of(const InstanceEnds& e) {
-  return bytes_of(e.ends) + bytes_of(e.faces_met) + bytes_of(e.not_sky) + bytes_of(e.sky_rays);
+  return bytes_of(e.ends) + bytes_of(e.faces_met) + bytes_of(e.not_sky) + bytes_of(e.sky_rays) +
+         bytes_of(e.cut);
 }
 
 }  // namespace

@@ -9,9 +9,10 @@
 //
 // Bytes: 4 K + 24 per face of a prototype (+ 16 where it stands more than once), and for each instance 12 per
 // face, and where the prototype stands more than once 4 per ray that leaves the tree (a fifth to a half of
-// them); 4 K + 6 per ground cell.
+// them) and 12 per link of the tree that a neighbour cuts where crowns interlock; 4 K + 6 per ground cell.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -36,11 +37,20 @@ struct TreeLinks {
   std::size_t surfaces() const { return std::size_t{foliage} + wood; }
 };
 
-// Ends of the rays that leave one instance.
+// A link within a tree that meets a neighbour first.
+struct CutLink {
+  std::uint32_t lobe = 0;  // of the tree, surface by surface
+  std::uint32_t own = 0;   // the face in the row, among all
+  std::uint32_t met = 0;   // the face met instead
+  auto operator<=>(const CutLink&) const = default;
+};
+
+// What one instance has for itself: ends of the rays that leave it, and links of its tree that are cut.
 struct InstanceEnds {
   std::vector<std::uint32_t> ends;  // by TreeLinks::first_exit; of the ground: K per cell
   // Per lobe (ground: cell): ends that are faces; that are not the sky; rays of all cast that see the sky.
   std::vector<std::uint16_t> faces_met, not_sky, sky_rays;
+  std::vector<CutLink> cut;  // in their order
 };
 
 // Where the faces of an instance are among all.

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <mutex>
 
 #include "lighting/links/link_ends.h"
 #include "lighting/links/link_memory.h"
 #include "lighting/links/link_row.h"
+#include "lighting/links/tree_neighbours.h"
 #include "lighting/trace/visiting_order.h"
 #include "sim/base/parallel.h"
 
@@ -53,6 +55,10 @@ TreeLinks empty_links(const LoneTree& tree, int links_per_face) {
   t.rows.resize(t.surfaces() * 2 * static_cast<std::size_t>(links_per_face));
   t.leaf_hits.resize(t.surfaces() * kLobes);
   t.own_hits.resize(t.surfaces() * kLobes);
+  t.links.reserve(t.leaf_hits.size());
+  t.cast.reserve(t.leaf_hits.size());
+  t.weight.reserve(t.leaf_hits.size());
+  t.is_shoot.reserve(t.foliage);
   for (std::size_t s = 0; s < t.surfaces(); ++s)
     for (const LobeShare& lobe : lobes_of(tree, s, links_per_face)) {
       t.links.push_back(static_cast<std::uint16_t>(lobe.links));
@@ -102,11 +108,10 @@ class Tracer {
   }
 
   // Of a prototype that stands more than once: alone. Ends are the numbers of the rays that leave.
-  MoreExits trace_alone(const LoneTree& tree, std::uint32_t first_instance) {
+  MoreExits trace_alone(const LoneTree& tree, const RayScene& scene, std::uint32_t first_instance) {
     TreeLinks& t = tree_links(first_instance);
     t = empty_links(tree, table_.links_per_face);
     MoreExits more(t.links.size());
-    const RayScene scene(tree.forest(), {.ground = false}, control_);
     for_each_lobe(tree, table_.links_per_face, tree_seed(first_instance), control_, [&](const LobePlace& at) {
       LobeRow row(2 * t.foliage);
       fill(
@@ -155,6 +160,42 @@ class Tracer {
       }
       store_ends(scene_.receivers, ends, at.lobe, more_sky, out);
     });
+  }
+
+  // The links within such a tree that neighbours cut, for one instance.
+  void trace_cut_links(const LoneTree& tree, const RayScene& alone, std::uint32_t instance) {
+    const TreeNeighbours neighbours(scene_.forest, instance);
+    if (!neighbours.any()) return;
+    const TreeLinks& t = tree_links(instance);
+    const InstanceFaces& faces = table_.instances[instance];
+    std::vector<CutLink>& cut = table_.beyond[instance].cut;
+    std::mutex adding;
+    for_each_lobe(tree, table_.links_per_face, tree_seed(instance), control_, [&](const LobePlace& at) {
+      std::vector<CutLink> found;
+      std::vector<bool> leaves_tree(static_cast<std::size_t>(at.cast));
+      const std::uint32_t* row = row_of(t, at, links_);
+      for (std::size_t i = t.own_hits[at.lobe]; i < static_cast<std::size_t>(at.links); ++i)
+        leaves_tree[row[i]] = true;
+      for (int k = 0; k < at.links; ++k) {
+        if (leaves_tree[static_cast<std::size_t>(k)]) continue;
+        const LinkRay ray = at.rays.ray(k), world = in_world(ray, scene_.forest, instance);
+        if (!neighbours.may_cut(world.origin_m, world.direction)) continue;
+        const RayHit own = alone.closest_hit(ray.origin_m, ray.direction, 0.0, ray.from);
+        if (own.kind == HitKind::kSky) continue;  // a link that gave way to another kind
+        const RayHit other = beyond_own_tree(world, instance);
+        const double own_m = static_cast<double>(scene_.forest.instances[instance].scale) * own.distance_m;
+        if (!is_on_tree(other) || other.distance_m >= own_m) continue;
+        const std::size_t face = own_face(tree, own), wood = 2 * std::size_t{t.foliage};
+        const std::size_t behind = face < wood ? faces.first_leaf + face : faces.first_wood + face - wood;
+        found.push_back({static_cast<std::uint32_t>(at.lobe), static_cast<std::uint32_t>(behind),
+                         scene_.receivers.met_by(other)});
+      }
+      if (found.empty()) return;
+      const std::scoped_lock lock(adding);
+      cut.insert(cut.end(), found.begin(), found.end());
+    });
+    std::sort(cut.begin(), cut.end());
+    cut.shrink_to_fit();
   }
 
   void trace_ground() {
@@ -249,22 +290,30 @@ LinkTable trace_links(const LinkScene& scene, int links_per_face, std::uint64_t 
   std::vector<std::unique_ptr<LoneTree>> trees(stands.size());
   const double steps = static_cast<double>(stands.size() + scene.forest.instances.size());
   std::vector<MoreExits> more(stands.size());
+  std::vector<std::unique_ptr<RayScene>> alone(stands.size());  // prototypes that stand more than once
   double done = 0.0;
   const auto step = [&] { control.report("tracing links", ++done / steps); };
   std::uint64_t bytes = fewest_bytes(scene.receivers, links_per_face);
   for (std::size_t p = 0; p < stands.size(); ++p, step()) {
     if (stands[p].empty()) continue;
     trees[p] = std::make_unique<LoneTree>(scene.forest, PrototypeId{static_cast<std::uint32_t>(p)});
-    if (stands[p].size() == 1)
+    if (stands[p].size() == 1) {
       tracer.trace_only_instance(*trees[p], stands[p][0]);
-    else
-      more[p] = tracer.trace_alone(*trees[p], stands[p][0]);
+    } else {
+      alone[p] = std::make_unique<RayScene>(trees[p]->forest(), RayScene::Options{.ground = false}, control);
+      more[p] = tracer.trace_alone(*trees[p], *alone[p], stands[p][0]);
+    }
     bytes += stands[p].size() * exit_bytes(table.trees[p]);
     check_memory(bytes, links_per_face, memory_limit_bytes);
   }
   for (std::size_t p = 0; p < stands.size(); ++p)
     for (const std::uint32_t instance : stands[p]) {
-      if (stands[p].size() > 1) tracer.trace_exits(*trees[p], more[p], instance);
+      if (stands[p].size() > 1) {
+        tracer.trace_exits(*trees[p], more[p], instance);
+        tracer.trace_cut_links(*trees[p], *alone[p], instance);
+        bytes += table.beyond[instance].cut.size() * sizeof(CutLink);
+        check_memory(bytes, links_per_face, memory_limit_bytes);
+      }
       step();
     }
   tracer.trace_ground();

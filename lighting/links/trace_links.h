@@ -1,6 +1,7 @@
 // Traces the links of a forest. A prototype that stands more than once is traced alone first; rays that leave
 // it go on through the forest from every instance. A ray that goes on passes its own tree, which it is known
-// to have left: leaves it could meet again by rounding only, needles by a second lot.
+// to have left: leaves it could meet again by rounding only, needles by a second lot. Where crowns interlock,
+// links within a tree are cast again: a neighbour may stand in between.
 #pragma once
 
 #include "lighting/links/link_rays.h"
