@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <mutex>
 
 #include "lighting/links/link_ends.h"
+#include "lighting/links/link_hits.h"
 #include "lighting/links/link_memory.h"
 #include "lighting/links/link_row.h"
+#include "lighting/links/lobe_walk.h"
 #include "lighting/links/tree_neighbours.h"
-#include "lighting/trace/visiting_order.h"
 #include "sim/base/parallel.h"
 
 namespace sunfleck::links {
@@ -17,58 +17,6 @@ namespace {
 
 using trace::Receivers;
 using trace::SurfaceSampler;
-
-std::uint32_t end_of(const Receivers& receivers, const RayHit& hit, const Vec3& direction) {
-  return hit.kind == HitKind::kSky ? sky_end(direction) : receivers.met_by(hit);
-}
-
-bool is_on_tree(const RayHit& hit) { return hit.kind != HitKind::kSky && hit.kind != HitKind::kGround; }
-
-// The face of its own tree that a hit lies on, as the tree alone numbers them.
-std::uint32_t own_face(const LoneTree& tree, RayHit hit) {
-  hit.instance = 0;
-  return tree.receivers().met_by(hit);
-}
-
-// Calls visit(place) for every lobe of the tree, neighbours in space one after the other.
-using LobeVisit = std::function<void(const LobePlace&)>;
-void for_each_lobe(const LoneTree& tree, int links_per_face, std::uint64_t seed, const RunControl& control,
-                   const LobeVisit& visit) {
-  const std::vector<std::uint32_t> order = trace::visiting_order(tree.receivers());
-  for_each_chunk(order.size(), 8, control, {}, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      control.check();
-      const std::size_t s = order[i];
-      const SurfaceSampler sampler(tree.receivers(), s);
-      const Lobes lobes = lobes_of(tree, s, links_per_face);
-      for (const Lobe lobe : {kFrontUp, kFrontDown, kBackUp, kBackDown})
-        visit({s, kLobes * s + lobe, LobeRays(sampler, s, lobe, part_of(tree, s, lobe), seed),
-               lobes[lobe].links, lobes[lobe].cast});
-    }
-  });
-}
-
-TreeLinks empty_links(const LoneTree& tree, int links_per_face) {
-  TreeLinks t;
-  t.foliage = static_cast<std::uint32_t>(tree.receivers().foliage_count());
-  t.wood = static_cast<std::uint32_t>(tree.receivers().wood_count());
-  t.rows.resize(t.surfaces() * 2 * static_cast<std::size_t>(links_per_face));
-  t.leaf_hits.resize(t.surfaces() * kLobes);
-  t.own_hits.resize(t.surfaces() * kLobes);
-  t.links.reserve(t.leaf_hits.size());
-  t.cast.reserve(t.leaf_hits.size());
-  t.weight.reserve(t.leaf_hits.size());
-  t.is_shoot.reserve(t.foliage);
-  for (std::size_t s = 0; s < t.surfaces(); ++s)
-    for (const LobeShare& lobe : lobes_of(tree, s, links_per_face)) {
-      t.links.push_back(static_cast<std::uint16_t>(lobe.links));
-      t.cast.push_back(static_cast<std::uint16_t>(lobe.cast));
-      t.weight.push_back(static_cast<float>(lobe.weight));
-    }
-  for (const FoliageElement& e : tree.forest().prototypes[0].foliage)
-    t.is_shoot.push_back(e.shape == ElementShape::kShoot);
-  return t;
-}
 
 // Of a prototype that stands more than once, per lobe: rays that leave it, of those that are not kept.
 using MoreExits = std::vector<std::vector<std::uint16_t>>;
@@ -147,7 +95,7 @@ class Tracer {
       const std::span<std::uint32_t> ends(out.ends.data() + t.first_exit[at.lobe], count);
       const auto end_of_ray = [&](std::uint32_t k) {
         const LinkRay ray = in_world(at.rays.ray(static_cast<int>(k)), scene_.forest, instance);
-        return end_of(scene_.receivers, beyond_own_tree(ray, instance), ray.direction);
+        return end_of(scene_.receivers, beyond_own_tree(scene_, ray, instance), ray.direction);
       };
       std::size_t skies = 0, more_sky = 0;
       for (std::size_t i = 0; i < count; ++i) skies += is_sky(ends[i] = end_of_ray(leaving[i])) ? 1 : 0;
@@ -182,7 +130,7 @@ class Tracer {
         if (!neighbours.may_cut(world.origin_m, world.direction)) continue;
         const RayHit own = alone.closest_hit(ray.origin_m, ray.direction, 0.0, ray.from);
         if (own.kind == HitKind::kSky) continue;  // a link that gave way to another kind
-        const RayHit other = beyond_own_tree(world, instance);
+        const RayHit other = beyond_own_tree(scene_, world, instance);
         const double own_m = static_cast<double>(scene_.forest.instances[instance].scale) * own.distance_m;
         if (!is_on_tree(other) || other.distance_m >= own_m) continue;
         const std::size_t face = own_face(tree, own), wood = 2 * std::size_t{t.foliage};
@@ -233,25 +181,6 @@ class Tracer {
   // Every prototype draws its own numbers, wherever it stands.
   std::uint64_t tree_seed(std::uint32_t instance) const {
     return mix_seed(seed_, scene_.forest.instances[instance].prototype.value);
-  }
-
-  // True if the hit lies on the instance itself, not on a copy of it in another period.
-  bool is_own(const RayHit& hit, const LinkRay& ray, std::uint32_t instance) const {
-    if (!is_on_tree(hit) || hit.instance != instance) return false;
-    if (!scene_.forest.period) return true;
-    const Vec3 away = hit.on_original_m - (ray.origin_m + hit.distance_m * ray.direction);
-    const Vec2 size = scene_.forest.period->size_m;
-    return std::abs(away.x) < 0.5 * size.x && std::abs(away.y) < 0.5 * size.y;
-  }
-
-  RayHit beyond_own_tree(const LinkRay& ray, std::uint32_t instance) const {
-    constexpr int kMostHits = 1000;
-    double from_m = 0.0;
-    for (int i = 0;; ++i) {
-      const RayHit hit = scene_.rays.closest_hit(ray.origin_m, ray.direction, from_m, ray.from);
-      if (i == kMostHits || !is_own(hit, ray, instance)) return hit;
-      from_m = hit.distance_m * (1.0 + 1e-6) + 1e-9;
-    }
   }
 
   const LinkScene& scene_;
