@@ -18,8 +18,12 @@ namespace {
 using trace::Receivers;
 using trace::SurfaceSampler;
 
-// Of a prototype that stands more than once, per lobe: rays that leave it, of those that are not kept.
-using MoreExits = std::vector<std::vector<std::uint16_t>>;
+// What is known of the rays of a prototype that stands more than once, until all its instances are traced.
+struct LoneRays {
+  std::vector<std::vector<std::uint16_t>> more_exits;  // per lobe: rays that leave it, of those not kept
+  std::vector<float>
+      own_m;  // [surface][2 K], as the rows: how far ray k of a lobe flies in the tree; 0: leaves it
+};
 
 class Tracer {
  public:
@@ -56,36 +60,40 @@ class Tracer {
   }
 
   // Of a prototype that stands more than once: alone. Ends are the numbers of the rays that leave.
-  MoreExits trace_alone(const LoneTree& tree, const RayScene& scene, std::uint32_t first_instance) {
+  LoneRays trace_alone(const LoneTree& tree, const RayScene& scene, std::uint32_t first_instance) {
     TreeLinks& t = tree_links(first_instance);
     t = empty_links(tree, table_.links_per_face);
-    MoreExits more(t.links.size());
+    LoneRays lone;
+    lone.more_exits.resize(t.links.size());
+    lone.own_m.resize(t.rows.size());
     for_each_lobe(tree, table_.links_per_face, tree_seed(first_instance), control_, [&](const LobePlace& at) {
       LobeRow row(2 * t.foliage);
+      float* own_m = lone.own_m.data() + (row_of(t, at, links_) - t.rows.data());
       fill(
           row, at,
           [&](int k) {
             const LinkRay r = at.rays.ray(k);
             const RayHit hit = scene.closest_hit(r.origin_m, r.direction, 0.0, r.from);
-            return hit.kind == HitKind::kSky ? Found{false, static_cast<std::uint32_t>(k)}
-                                             : Found{true, own_face(tree, hit)};
+            if (hit.kind == HitKind::kSky) return Found{false, static_cast<std::uint32_t>(k)};
+            if (k < at.links) own_m[k] = static_cast<float>(hit.distance_m);
+            return Found{true, own_face(tree, hit)};
           },
           [](const Found& f) { return !f.own; },
           [&](int k) {
             const LinkRay r = at.rays.ray(k);
             return !scene.occluded(r.origin_m, r.direction, 0.0, r.from);
           },
-          [&](std::uint32_t k) { more[at.lobe].push_back(static_cast<std::uint16_t>(k)); });
+          [&](std::uint32_t k) { lone.more_exits[at.lobe].push_back(static_cast<std::uint16_t>(k)); });
       row.store(t, at, links_);
     });
     t.first_exit.assign(1, 0);
     for (std::size_t l = 0; l < t.links.size(); ++l)
       t.first_exit.push_back(t.first_exit.back() + t.links[l] - t.own_hits[l]);
-    return more;
+    return lone;
   }
 
   // The rays of such a tree that leave it, from one of its instances.
-  void trace_exits(const LoneTree& tree, const MoreExits& more, std::uint32_t instance) {
+  void trace_exits(const LoneTree& tree, const LoneRays& lone, std::uint32_t instance) {
     const TreeLinks& t = tree_links(instance);
     InstanceEnds& out = table_.beyond[instance];
     make_room(out, t.links.size(), t.first_exit.back());
@@ -99,7 +107,7 @@ class Tracer {
       };
       std::size_t skies = 0, more_sky = 0;
       for (std::size_t i = 0; i < count; ++i) skies += is_sky(ends[i] = end_of_ray(leaving[i])) ? 1 : 0;
-      for (const std::uint16_t k : more[at.lobe]) {
+      for (const std::uint16_t k : lone.more_exits[at.lobe]) {
         const std::uint32_t end = end_of_ray(k);
         more_sky += is_sky(end) ? 1 : 0;
         // A kind that only these rays saw takes the place of one link.
@@ -111,36 +119,28 @@ class Tracer {
   }
 
   // The links within such a tree that neighbours cut, for one instance.
-  void trace_cut_links(const LoneTree& tree, const RayScene& alone, std::uint32_t instance) {
+  void trace_cut_links(const LoneTree& tree, const RayScene& alone, const LoneRays& lone,
+                       std::uint32_t instance) {
     const TreeNeighbours neighbours(scene_.forest, instance);
     if (!neighbours.any()) return;
     const TreeLinks& t = tree_links(instance);
-    const InstanceFaces& faces = table_.instances[instance];
+    const double scale = scene_.forest.instances[instance].scale;
     std::vector<CutLink>& cut = table_.beyond[instance].cut;
     std::mutex adding;
     for_each_lobe(tree, table_.links_per_face, tree_seed(instance), control_, [&](const LobePlace& at) {
-      std::vector<CutLink> found;
-      std::vector<bool> leaves_tree(static_cast<std::size_t>(at.cast));
-      const std::uint32_t* row = row_of(t, at, links_);
-      for (std::size_t i = t.own_hits[at.lobe]; i < static_cast<std::size_t>(at.links); ++i)
-        leaves_tree[row[i]] = true;
+      const float* own_m = lone.own_m.data() + (row_of(t, at, links_) - t.rows.data());
       for (int k = 0; k < at.links; ++k) {
-        if (leaves_tree[static_cast<std::size_t>(k)]) continue;
+        if (own_m[k] == 0.0f) continue;
         const LinkRay ray = at.rays.ray(k), world = in_world(ray, scene_.forest, instance);
-        if (!neighbours.may_cut(world.origin_m, world.direction)) continue;
-        const RayHit own = alone.closest_hit(ray.origin_m, ray.direction, 0.0, ray.from);
-        if (own.kind == HitKind::kSky) continue;  // a link that gave way to another kind
+        const double length_m = scale * static_cast<double>(own_m[k]);
+        if (!neighbours.may_cut(world.origin_m, world.origin_m + length_m * world.direction)) continue;
         const RayHit other = beyond_own_tree(scene_, world, instance);
-        const double own_m = static_cast<double>(scene_.forest.instances[instance].scale) * own.distance_m;
-        if (!is_on_tree(other) || other.distance_m >= own_m) continue;
-        const std::size_t face = own_face(tree, own), wood = 2 * std::size_t{t.foliage};
-        const std::size_t behind = face < wood ? faces.first_leaf + face : faces.first_wood + face - wood;
-        found.push_back({static_cast<std::uint32_t>(at.lobe), static_cast<std::uint32_t>(behind),
-                         scene_.receivers.met_by(other)});
+        if (!is_on_tree(other) || other.distance_m >= length_m) continue;
+        const RayHit own = alone.closest_hit(ray.origin_m, ray.direction, 0.0, ray.from);
+        const std::scoped_lock lock(adding);
+        cut.push_back({static_cast<std::uint32_t>(at.lobe), face_of(instance, own_face(tree, own)),
+                       scene_.receivers.met_by(other)});
       }
-      if (found.empty()) return;
-      const std::scoped_lock lock(adding);
-      cut.insert(cut.end(), found.begin(), found.end());
     });
     std::sort(cut.begin(), cut.end());
     cut.shrink_to_fit();
@@ -173,6 +173,13 @@ class Tracer {
     const RayHit hit = scene_.rays.closest_hit(ray.origin_m, ray.direction, 0.0, ray.from);
     if (is_on_tree(hit) && hit.instance == instance) return {true, own_face(tree, hit)};
     return {false, end_of(scene_.receivers, hit, ray.direction)};
+  }
+
+  // A face of its tree, among all.
+  std::uint32_t face_of(std::uint32_t instance, std::size_t face) const {
+    const InstanceFaces& at = table_.instances[instance];
+    const std::size_t wood = 2 * std::size_t{table_.trees[at.prototype].foliage};
+    return static_cast<std::uint32_t>(face < wood ? at.first_leaf + face : at.first_wood + face - wood);
   }
 
   TreeLinks& tree_links(std::uint32_t instance) {
@@ -218,7 +225,7 @@ LinkTable trace_links(const LinkScene& scene, int links_per_face, std::uint64_t 
   const std::vector<std::vector<std::uint32_t>> stands = instances_of_prototypes(scene.forest);
   std::vector<std::unique_ptr<LoneTree>> trees(stands.size());
   const double steps = static_cast<double>(stands.size() + scene.forest.instances.size());
-  std::vector<MoreExits> more(stands.size());
+  std::vector<LoneRays> lone(stands.size());
   std::vector<std::unique_ptr<RayScene>> alone(stands.size());  // prototypes that stand more than once
   double done = 0.0;
   const auto step = [&] { control.report("tracing links", ++done / steps); };
@@ -230,7 +237,7 @@ LinkTable trace_links(const LinkScene& scene, int links_per_face, std::uint64_t 
       tracer.trace_only_instance(*trees[p], stands[p][0]);
     } else {
       alone[p] = std::make_unique<RayScene>(trees[p]->forest(), RayScene::Options{.ground = false}, control);
-      more[p] = tracer.trace_alone(*trees[p], *alone[p], stands[p][0]);
+      lone[p] = tracer.trace_alone(*trees[p], *alone[p], stands[p][0]);
     }
     bytes += stands[p].size() * exit_bytes(table.trees[p]);
     check_memory(bytes, links_per_face, memory_limit_bytes);
@@ -238,8 +245,8 @@ LinkTable trace_links(const LinkScene& scene, int links_per_face, std::uint64_t 
   for (std::size_t p = 0; p < stands.size(); ++p)
     for (const std::uint32_t instance : stands[p]) {
       if (stands[p].size() > 1) {
-        tracer.trace_exits(*trees[p], more[p], instance);
-        tracer.trace_cut_links(*trees[p], *alone[p], instance);
+        tracer.trace_exits(*trees[p], lone[p], instance);
+        tracer.trace_cut_links(*trees[p], *alone[p], lone[p], instance);
         bytes += table.beyond[instance].cut.size() * sizeof(CutLink);
         check_memory(bytes, links_per_face, memory_limit_bytes);
       }

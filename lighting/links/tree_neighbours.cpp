@@ -21,15 +21,16 @@ bool TreeNeighbours::touch(const Cylinder& a, const Cylinder& b) {
   return glm::length(a.axis_m - b.axis_m) <= a.radius_m + b.radius_m && a.lo_m <= b.hi_m && b.lo_m <= a.hi_m;
 }
 
-TreeNeighbours::TreeNeighbours(const Forest& forest, std::size_t instance) : own_(around(forest, instance)) {
+TreeNeighbours::TreeNeighbours(const Forest& forest, std::size_t instance) {
+  const Cylinder own = around(forest, instance);
   for (std::size_t j = 0; j < forest.instances.size(); ++j) {
     const Cylinder other = around(forest, j);
     if (!forest.period) {
-      if (j != instance && touch(own_, other)) reaching_in_.push_back(other);
+      if (j != instance && touch(own, other)) reaching_in_.push_back(other);
       continue;
     }
-    const Vec2 size = forest.period->size_m, apart = own_.axis_m - other.axis_m;
-    const double reach = own_.radius_m + other.radius_m;
+    const Vec2 size = forest.period->size_m, apart = own.axis_m - other.axis_m;
+    const double reach = own.radius_m + other.radius_m;
     const auto first = [&](double d, double s) { return static_cast<int>(std::ceil((d - reach) / s)); };
     const auto last = [&](double d, double s) { return static_cast<int>(std::floor((d + reach) / s)); };
     for (int x = first(apart.x, size.x); x <= last(apart.x, size.x); ++x)
@@ -42,26 +43,20 @@ TreeNeighbours::TreeNeighbours(const Forest& forest, std::size_t instance) : own
                             forest.terrain.height_at(other.axis_m.x, other.axis_m.y);
         copy.lo_m += lift;
         copy.hi_m += lift;
-        if (touch(own_, copy)) reaching_in_.push_back(copy);
+        if (touch(own, copy)) reaching_in_.push_back(copy);
       }
   }
 }
 
-bool TreeNeighbours::may_cut(const Vec3& origin_m, const Vec3& direction) const {
-  // The way to the own cylinder's side and ends, at most.
-  const Vec2 from = Vec2(origin_m.x, origin_m.y) - own_.axis_m, d(direction.x, direction.y);
-  double far_m = own_.hi_m - own_.lo_m + 2.0 * own_.radius_m;
-  const double level2 = glm::dot(d, d), along = glm::dot(from, d);
-  const double inside = along * along + level2 * (own_.radius_m * own_.radius_m - glm::dot(from, from));
-  if (level2 > 1e-12 && inside >= 0.0) far_m = std::min(far_m, (std::sqrt(inside) - along) / level2);
-  if (direction.z > 1e-12) far_m = std::min(far_m, (own_.hi_m - origin_m.z) / direction.z);
-  if (direction.z < -1e-12) far_m = std::min(far_m, (own_.lo_m - origin_m.z) / direction.z);
-  const double end_z = origin_m.z + far_m * direction.z;
+bool TreeNeighbours::may_cut(const Vec3& from_m, const Vec3& to_m) const {
+  const Vec2 from(from_m.x, from_m.y), way = Vec2(to_m.x, to_m.y) - from;
+  const double length2 = std::max(glm::dot(way, way), 1e-300);
+  const double lo_m = std::min(from_m.z, to_m.z), hi_m = std::max(from_m.z, to_m.z);
   for (const Cylinder& c : reaching_in_) {
-    if (std::max(origin_m.z, end_z) < c.lo_m || std::min(origin_m.z, end_z) > c.hi_m) continue;
-    const Vec2 to_axis = c.axis_m - Vec2(origin_m.x, origin_m.y);
-    const double nearest_m = level2 > 1e-12 ? std::clamp(glm::dot(to_axis, d) / level2, 0.0, far_m) : 0.0;
-    if (glm::length(to_axis - nearest_m * d) <= c.radius_m) return true;
+    if (hi_m < c.lo_m || lo_m > c.hi_m) continue;
+    const Vec2 to_axis = c.axis_m - from;
+    const double nearest = std::clamp(glm::dot(to_axis, way) / length2, 0.0, 1.0);
+    if (glm::length(to_axis - nearest * way) <= c.radius_m) return true;
   }
   return false;
 }

@@ -14,9 +14,8 @@ class TreeNeighbours {
   TreeNeighbours(const Forest& forest, std::size_t instance);
 
   bool any() const { return !reaching_in_.empty(); }
-  // False only if no neighbour can stand between a point and where a ray from it leaves the instance's own
-  // cylinder.
-  bool may_cut(const Vec3& origin_m, const Vec3& direction) const;
+  // False only if no neighbour can stand between two points.
+  bool may_cut(const Vec3& from_m, const Vec3& to_m) const;
 
  private:
   struct Cylinder {
@@ -26,7 +25,6 @@ class TreeNeighbours {
   static Cylinder around(const Forest& forest, std::size_t instance);
   static bool touch(const Cylinder& a, const Cylinder& b);
 
-  Cylinder own_;
   std::vector<Cylinder> reaching_in_;
 };
 
