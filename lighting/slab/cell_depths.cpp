@@ -130,18 +130,18 @@ class Measurement {
 
   void fill_instance(std::size_t i, std::size_t axis, const PlacedMap& placed,
                      const OpacityNeighbours& neighbours, const std::vector<OwnCell>& own) {
-    const std::size_t axes = result_.directions.axes();
+    const std::size_t axes = result_.directions.axes(), first = grids_.first_cell[i];
+    float* before = result_.depth.data() + axis * result_.cells + first;
+    float* behind = result_.depth.data() + (axes + axis) * result_.cells + first;
+    float* transmission = result_.transmission.data() + axis * result_.cells + first;
     const PrototypeGrid& grid = grids_.prototypes[forest_.instances[i].prototype.value];
     const std::vector<Neighbour> around = neighbours.around(i);
     for (std::size_t c = 0; c < grid.cells(); ++c) {
       if (c % 64 == 0) control_.check();
       const OpticalDepths beyond = neighbours.at(around, placed.world_from_tree(grid.centre_m[c]));
-      const std::size_t cell = grids_.first_cell[i] + c;
-      float* depth = result_.depth.data() + cell * 2 * axes;
-      depth[axis] = stored_depth(own[c].before + beyond.before);
-      depth[axes + axis] = stored_depth(own[c].behind + beyond.behind);
-      result_.transmission[cell * axes + axis] =
-          own[c].transmission * static_cast<float>(std::exp(-beyond.before));
+      before[c] = stored_depth(own[c].before + beyond.before);
+      behind[c] = stored_depth(own[c].behind + beyond.behind);
+      transmission[c] = own[c].transmission * static_cast<float>(std::exp(-beyond.before));
     }
   }
 
@@ -159,7 +159,7 @@ class Measurement {
 CellDepths measure_cell_depths(const Forest& forest, const ForestGrids& grids, int sample_directions,
                                int map_resolution, const RunControl& control) {
   const double base_yaw_rad = forest.instances.empty() ? 0.0 : forest.instances.front().yaw_rad;
-  CellDepths result{SampleDirections(sample_directions, base_yaw_rad), {}, {}, {}, true};
+  CellDepths result{SampleDirections(sample_directions, base_yaw_rad), grids.cells(), {}, {}, {}, true};
   result.depth.resize(grids.cells() * result.directions.directions());
   result.transmission.resize(grids.cells() * result.directions.axes());
   result.turn_ratio.assign(forest.prototypes.size() * result.directions.keys(), 2.0f / 3.0f);

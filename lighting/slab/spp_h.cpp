@@ -12,25 +12,6 @@
 namespace sunfleck {
 namespace {
 
-struct Waves {
-  double decay;           // lambda, per slant optical depth
-  double deep_albedo;     // r
-  double one_minus_r;     // without its cancellation
-  double feed_p, feed_q;  // beam into each wave per depth
-};
-
-Waves waves(const HemisphereMedium& medium, double alpha) {
-  const double omega = 1.0 - alpha;
-  const double b = omega * medium.diffuse_backscatter;
-  const double a = alpha + b;
-  const double root = std::sqrt(alpha * (alpha + 2.0 * b));
-  const double r = b / (a + root), one_minus_r = (alpha + root) / (a + root);
-  const double scale = omega / (medium.diffuse_cosine * one_minus_r * (1.0 + r));
-  const double forward = 1.0 - medium.beam_backscatter;
-  return {root / medium.diffuse_cosine, r, one_minus_r, scale * (forward + r * medium.beam_backscatter),
-          scale * (medium.beam_backscatter + r * forward)};
-}
-
 // Integral of e^(-decay (tau - t)) e^-t over t in [0, tau]; decay = 1 needs no case of its own.
 double fed_with_beam(double decay, double tau) {
   return std::exp(-std::min(decay, 1.0) * tau) * tau * phi1(std::abs(1.0 - decay) * tau);
@@ -41,10 +22,22 @@ double fed_against_beam(double decay, double x) { return x * phi1((1.0 + decay) 
 
 }  // namespace
 
+SppHWaves spp_h_waves(const HemisphereMedium& medium) {
+  const double alpha = std::max(medium.absorption, 1e-10), omega = 1.0 - alpha;
+  const double b = omega * medium.diffuse_backscatter;
+  const double a = alpha + b;
+  const double root = std::sqrt(alpha * (alpha + 2.0 * b));
+  const double r = b / (a + root), one_minus_r = (alpha + root) / (a + root);
+  const double scale = omega / (medium.diffuse_cosine * one_minus_r * (1.0 + r));
+  const double forward = 1.0 - medium.beam_backscatter;
+  return {root / medium.diffuse_cosine, r, one_minus_r, scale * (forward + r * medium.beam_backscatter),
+          scale * (medium.beam_backscatter + r * forward)};
+}
+
 SlabLight<double> spp_h(double before, double behind, const HemisphereMedium& medium) {
   SUNFLECK_EXPECTS(before >= 0.0 && behind >= 0.0 && medium.diffuse_cosine > 0.0);
   const double tau = std::min(before, 1e6), x = std::min(behind, 1e6), thickness = tau + x;
-  const Waves w = waves(medium, std::max(medium.absorption, 1e-10));
+  const SppHWaves w = spp_h_waves(medium);
   const double r = w.deep_albedo, rho = medium.ground_albedo;
   const double across = std::exp(-w.decay * thickness);
 

@@ -15,6 +15,16 @@ struct HemisphereMedium {
   double diffuse_cosine = 0.5;  // m: mean cosine of diffuse light over the beam's (leaf projections included)
 };
 
+// What does not depend on the depth: waves p (decays with depth) and q (against it), D = p + r q, U = r p +
+// q.
+struct SppHWaves {
+  double decay = 0;               // lambda / m, per slant optical depth
+  double deep_albedo = 0;         // r
+  double one_minus_r = 1;         // without its cancellation
+  double feed_p = 0, feed_q = 0;  // of the beam into each wave, per depth
+};
+SppHWaves spp_h_waves(const HemisphereMedium& medium);
+
 // Fluence as in spp(); depths taken as at most 1e6. Double only: float loses three digits near resonance.
 SlabLight<double> spp_h(double before, double behind, const HemisphereMedium& medium);
 

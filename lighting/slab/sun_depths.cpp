@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "lighting/slab/compensation.h"
+#include "lighting/slab/compensation_rows.h"
 #include "lighting/slab/map_table.h"
 #include "sim/base/parallel.h"
 
@@ -122,26 +122,34 @@ SunDepths measure_sun_depths(const Forest& forest, const ForestIndex& index, con
   return sun;
 }
 
-std::vector<float> sun_compensation(const Forest& forest, const ForestIndex& index, const ForestGrids& grids,
-                                    const CellDepths& cells, const SunDepths& sun, const Vec3& to_sun,
-                                    const RunControl& control) {
-  const SampleDirections& directions = cells.directions;
-  std::vector<double> cosines;
-  for (std::size_t j = 0; j < directions.directions(); ++j)
-    cosines.push_back(std::clamp(glm::dot(directions.direction(j), to_sun), -1.0, 1.0));
-  std::vector<float> result(grids.cells());
-  for_each_chunk(grids.cells(), 256, control, "compensation", [&](std::size_t begin, std::size_t end) {
-    for (std::size_t cell = begin; cell < end; ++cell) {
-      const std::size_t i = grids.instance_of(cell), c = cell - grids.first_cell[i];
+CellSun mean_over_cells(const Forest& forest, const ForestIndex& index, const ForestGrids& grids,
+                        const SunDepths& sun, const RunControl& control) {
+  CellSun means{std::vector<float>(grids.cells()), std::vector<float>(grids.cells())};
+  for_each_chunk(forest.instances.size(), 4, control, {}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
       const PrototypeGrid& grid = grids.prototypes[forest.instances[i].prototype.value];
-      double before = 0.0, behind = 0.0;
-      for (std::uint32_t k = grid.first[c]; k < grid.first[c + 1]; ++k) {
-        before += sun.before[index.first_element(i) + grid.elements[k]];
-        behind += sun.behind[index.first_element(i) + grid.elements[k]];
+      const float *before = sun.before.data() + index.first_element(i),
+                  *behind = sun.behind.data() + index.first_element(i);
+      for (std::size_t c = 0; c < grid.cells(); ++c) {
+        double sum_before = 0.0, sum_behind = 0.0;
+        for (std::uint32_t k = grid.first[c]; k < grid.first[c + 1]; ++k) {
+          sum_before += before[grid.elements[k]];
+          sum_behind += behind[grid.elements[k]];
+        }
+        const double n = grid.first[c + 1] - grid.first[c];
+        means.before[grids.first_cell[i] + c] = static_cast<float>(sum_before / n);
+        means.behind[grids.first_cell[i] + c] = static_cast<float>(sum_behind / n);
       }
-      const double n = grid.first[c + 1] - grid.first[c];
-      result[cell] = static_cast<float>(compensation(before / n, behind / n, cells.depths(cell), cosines));
     }
+  });
+  return means;
+}
+
+std::vector<float> sun_compensation(const CellDepths& cells, const CellSun& sun, const Vec3& to_sun,
+                                    const RunControl& control) {
+  std::vector<float> result(cells.cells);
+  for_each_chunk(cells.cells, 2048, control, "compensation", [&](std::size_t begin, std::size_t end) {
+    compensation_rows(cells, to_sun, sun.before, sun.behind, begin, end, result);
   });
   return result;
 }

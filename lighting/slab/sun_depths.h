@@ -25,9 +25,15 @@ struct SunDepths {
 SunDepths measure_sun_depths(const Forest& forest, const ForestIndex& index, const Vec3& to_sun,
                              int map_resolution, const RunControl& control);
 
+// Means over the elements of every cell.
+struct CellSun {
+  std::vector<float> before, behind;
+};
+CellSun mean_over_cells(const Forest& forest, const ForestIndex& index, const ForestGrids& grids,
+                        const SunDepths& sun, const RunControl& control);
+
 // G of every cell for light from a direction: [SPP] Eq. 27 with the depths of the cell's elements averaged.
-std::vector<float> sun_compensation(const Forest& forest, const ForestIndex& index, const ForestGrids& grids,
-                                    const CellDepths& cells, const SunDepths& sun, const Vec3& to_sun,
+std::vector<float> sun_compensation(const CellDepths& cells, const CellSun& sun, const Vec3& to_sun,
                                     const RunControl& control);
 
 }  // namespace sunfleck
