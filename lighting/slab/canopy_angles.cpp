@@ -19,9 +19,9 @@ double mean_over_azimuth(double a, double mu) {
   return std::abs(2.0 / kPi * (level * (turn - 0.5 * kPi) + swing * std::sin(turn)));
 }
 
-// Leaf area by |n.N|, bins of equal width, and of needles.
+// Leaf area by |n.N| in bins of equal width, with the mean |n.N| of each; and of needles.
 struct AngleCount {
-  std::array<double, kAngleBins> area_m2{};
+  std::array<double, kAngleBins> area_m2{}, cosine_area_m2{}, square_area_m2{};
   double needles_m2 = 0.0;
 };
 
@@ -36,7 +36,11 @@ void add_prototype(const Prototype& prototype, const Vec3& normal, double weight
     }
     const double cosine = std::abs(glm::dot(element_normal(e), normal));
     const double bin = std::min(cosine * kAngleBins, kAngleBins - 1.0);
-    if (bin >= 0.0) count.area_m2[static_cast<std::size_t>(bin)] += area;
+    if (!(bin >= 0.0)) continue;
+    const std::size_t k = static_cast<std::size_t>(bin);
+    count.area_m2[k] += area;
+    count.cosine_area_m2[k] += area * cosine;
+    count.square_area_m2[k] += area * cosine * cosine;
   }
 }
 
@@ -65,9 +69,10 @@ CanopyAngles::CanopyAngles(const Forest& forest) {
   double area = count.needles_m2, squares = count.needles_m2 / 3.0;
   projection_.fill(0.5 * count.needles_m2);
   for (std::size_t bin = 0; bin < kAngleBins; ++bin) {
-    const double leaf = (static_cast<double>(bin) + 0.5) / kAngleBins;
+    if (!(count.area_m2[bin] > 0.0)) continue;
+    const double leaf = std::min(count.cosine_area_m2[bin] / count.area_m2[bin], 1.0);
     area += count.area_m2[bin];
-    squares += count.area_m2[bin] * leaf * leaf;
+    squares += count.square_area_m2[bin];
     for (std::size_t k = 0; k <= kSteps; ++k)
       projection_[k] += count.area_m2[bin] * mean_over_azimuth(leaf, static_cast<double>(k) / kSteps);
   }

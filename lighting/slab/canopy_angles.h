@@ -25,7 +25,11 @@ class CanopyAngles {
   // The medium for a beam at `cosine` to N (at least 1e-4 is used): m = diffuse_cosine() G / cosine, beam
   // backscatter 1/2 + (q/2) <(n.N)^2> cosine / G, diffuse backscatter 1/2 + (q/2) <(n.N)^2> for leaves with
   // q = (r - t) / (r + t).
+  // Diffuse fluence is per fluence of a beam of which leaves see as much as of diffuse light, half; what they
+  // see of the real beam is G: multiply both hemispheres by fluence_scale(), 1 for randomly turned leaves.
+  // Without it the model balances fluxes but not what leaves absorb.
   HemisphereMedium medium(double cosine, double absorption, double turn, double ground_albedo) const;
+  double fluence_scale(double cosine) const { return 2.0 * leaf_projection(cosine); }
 
  private:
   static constexpr std::size_t kSteps = 16;

@@ -29,6 +29,13 @@ void multiply(std::span<const float> factor, std::size_t begin, std::size_t end,
   }
 }
 
+void scale(float factor, std::size_t begin, std::size_t end, SkyResponse& response) {
+  for (std::size_t i = begin; i < end; ++i) {
+    response.down[i] *= factor;
+    response.up[i] *= factor;
+  }
+}
+
 void spp_response(const Forest& forest, const ForestGrids& grids, const CellDepths& cells,
                   const ResponseMedium& medium, const RunControl& control, SkyResponse& response) {
   const SampleDirections& d = cells.directions;
@@ -61,6 +68,8 @@ void spp_h_response(const Forest& forest, const CellDepths& cells, const Respons
                 medium.angles->medium(cosine, mean.absorption, mean.turn, medium.ground_albedo),
                 std::span(response.down).subspan(s * cells.cells + begin, end - begin),
                 std::span(response.up).subspan(s * cells.cells + begin, end - begin));
+      scale(static_cast<float>(medium.angles->fluence_scale(cosine)), s * cells.cells + begin,
+            s * cells.cells + end, response);
     }
   });
 }

@@ -54,15 +54,18 @@ struct Row {
         to_point / (0.5f * (1.0f + across * across) + m.thickness_sine * whole_1 * (1.0f + across));
     const float there_and_back = to_end * to_end;
     up[i] = (m.ground * there_and_back + m.up_sine * behind_2) * per_denominator;
-    const float d = to_point * (turned.falling * forward.risen + turned.risen) +
-                    m.down_sine * there_and_back * before_2 * per_denominator;
+    const float beam = exp_pair(tau).falling;
+    const float all_down = (0.5f * (1.0f + there_and_back) + m.thickness_sine * behind_2) * per_denominator;
+    const float shallow = to_point * (turned.falling * forward.risen + turned.risen) +
+                          m.down_sine * there_and_back * before_2 * per_denominator;
+    const float d = beam + beam < all_down ? all_down - beam : shallow;
     down[i] = d > 0.0f ? d : 0.0f;
   }
 }
 
 // spp_h() with its constants.
 struct HemisphereRow {
-  SppHWaves waves;
+  SppHWaves<double> waves;
   double ground, per_cosine;
   double beside;        // |1 - decay|, at least 1e-12: resonance needs no case
   bool beam_is_faster;  // decay < 1
@@ -71,7 +74,7 @@ struct HemisphereRow {
 [[gnu::always_inline]] inline void spp_h_loop(const Row& row, const HemisphereRow& h) {
   const float* __restrict before = row.before, * __restrict behind = row.behind;
   float* __restrict down = row.down, * __restrict up = row.up;
-  const SppHWaves w = h.waves;
+  const SppHWaves<double> w = h.waves;
   const double r = w.deep_albedo, per_beside = 1.0 / h.beside, per_sum = 1.0 / (1.0 + w.decay);
   const double wave_share = h.beam_is_faster ? 1.0 : 0.0, beam_share = 1.0 - wave_share;
   for (std::size_t i = 0; i < row.count; ++i) {

@@ -31,7 +31,7 @@ SppRowMedium row_medium(const SlabMedium<double>& medium);
 enum class RowCode { kBest, kPlainCode };
 
 // `down` and `up` of spp() for every pair of depths; all spans of one size. Error against spp<double>() below
-// 5e-5 of down + up while that is above 1e-30.
+// 5e-5 of down + up, plus 4e-7 of min(1, before).
 void spp_row(std::span<const float> before, std::span<const float> behind, const SppRowMedium& medium,
              std::span<float> down, std::span<float> up, RowCode code = RowCode::kBest);
 

@@ -16,6 +16,7 @@
 #include "lighting/base/summaries.h"
 #include "lighting/slab/sky_light.h"
 #include "lighting/slab/slab_rows.h"
+#include "lighting/slab/spp_marched.h"
 #include "lighting/slab/spp_prepare.h"
 #include "lighting/slab/spp_suitability.h"
 #include "lighting/slab/sun_depths.h"
@@ -68,7 +69,8 @@ class Estimate {
       const StageTimer timer(map_.provenance, "preprocess");
       own_ = prepare_spp_cells(forest_, options);
       const bool compensated = options.variant == SppVariant::kSppG;
-      if (has_sky_ || (has_sun_ && compensated)) prepare_spp_depths(forest_, *own_, control_);
+      const bool marched = options.variant == SppVariant::kSppMarched;
+      if (marched || has_sky_ || (has_sun_ && compensated)) prepare_spp_depths(forest_, *own_, control_);
       if (has_sky_ && compensated) prepare_spp_compensation(*own_, control_);
     }
     return run(*own_);
@@ -115,7 +117,9 @@ class Estimate {
   void light_from_sun() {
     const StageTimer timer(map_.provenance, "sun");
     sun_response_.resize(optics_.band_count());
+    refined_.resize(optics_.band_count());
     if (!has_sun_) return;
+    if (is(SppVariant::kSppMarched)) return marched_light_from_sun();
     sun_ = measure_sun_depths(forest_, index_, light_.to_sun, prepared_->options.map_resolution, control_);
     CellSun cell_sun;
     if (is(SppVariant::kSppG) || is(SppVariant::kSppH))
@@ -125,6 +129,14 @@ class Estimate {
     for (std::size_t b = 0; b < sun_response_.size(); ++b)
       if (light_.bands[b].beam_normal_w_m2 > 0.0 && !is(SppVariant::kSingleScattering))
         sun_response_[b] = is(SppVariant::kSppH) ? response_of_cells(b, cell_sun) : response_of_elements(b);
+  }
+
+  void marched_light_from_sun() {
+    sun_ = march_sun_depths(forest_, *prepared_, light_.to_sun, control_);
+    for (std::size_t b = 0; b < refined_.size(); ++b)
+      if (light_.bands[b].beam_normal_w_m2 > 0.0)
+        refined_[b] = refined_sunlight(forest_, *prepared_, sun_, light_.to_sun, media_[b],
+                                       optics_.soil_albedo(b), control_);
   }
 
   // [SPP] Eq. 19 for the elements' own depths.
@@ -194,6 +206,10 @@ class Estimate {
       if (!sky_[b].empty()) add_scattered(light, sky_[b].at(cell), normal, strength.diffuse_horizontal_w_m2);
       if (!sun_response_[b].down.empty())
         add_scattered(light, scattered_sunlight(e, cell, b), normal, strength.beam_normal_w_m2);
+      if (!refined_[b].front.empty()) {
+        light.front.scattered_w_m2 += static_cast<float>(strength.beam_normal_w_m2) * refined_[b].front[e];
+        light.back.scattered_w_m2 += static_cast<float>(strength.beam_normal_w_m2) * refined_[b].back[e];
+      }
     }
   }
 
@@ -228,7 +244,8 @@ class Estimate {
     const SunResponse& response = sun_response_[band];
     const bool by_cell = is(SppVariant::kSppH);
     const std::size_t at = by_cell ? cell : e;
-    const double scale = sun_compensation_.empty() ? 1.0 : sun_compensation_[cell];
+    double scale = sun_compensation_.empty() ? 1.0 : sun_compensation_[cell];
+    if (by_cell) scale = prepared_->angles.fluence_scale(glm::dot(light_.to_sun, forest_.terrain.normal()));
     return of_hemispheres(by_cell ? forest_.terrain.normal() : light_.to_sun, scale * response.down[at],
                           scale * response.up[at]);
   }
@@ -245,6 +262,7 @@ class Estimate {
     auto& settings = map_.provenance.settings;
     const SppOptions& options = prepared_->options;
     settings.emplace_back("sample_directions", std::to_string(options.sample_directions));
+    if (is(SppVariant::kSppMarched)) return note_marched();
     settings.emplace_back("grid_resolution_cells", std::to_string(options.grid_resolution));
     settings.emplace_back("cells", std::to_string(prepared_->cells.cells));
     settings.emplace_back("map_resolution_texels", std::to_string(options.map_resolution));
@@ -253,6 +271,14 @@ class Estimate {
     settings.emplace_back("sun_map_texel_m", text_of(sun_.texel_m));
     settings.emplace_back("sun_maps", std::to_string(sun_.maps));
     settings.emplace_back("sun_yaw_step_rad", text_of(sun_.yaw_step_rad));
+  }
+
+  void note_marched() {
+    auto& settings = map_.provenance.settings;
+    const SppMarchedOptions& options = prepared_->options.marched;
+    settings.emplace_back("phase", options.phase == SppPhase::kIsotropic ? "isotropic" : "leaf_angles");
+    settings.emplace_back("paths", options.paths == SppPaths::kSlab ? "slab" : "true_boundary");
+    if (has_sun_) settings.emplace_back("cell_m", text_of(sun_.texel_m));
   }
 
   void note_limits() {
@@ -293,6 +319,7 @@ class Estimate {
   SunDepths sun_;
   std::vector<float> sun_compensation_;  // empty: 1
   std::vector<SunResponse> sun_response_;
+  std::vector<FaceResponse> refined_;  // spp_marched
   LightMap map_;
 };
 
