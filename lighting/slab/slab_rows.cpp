@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lighting/slab/exp_pair.h"
+#include "lighting/depth/exp_pair.h"
 #include "sim/base/contract.h"
 
 #if defined(__x86_64__)

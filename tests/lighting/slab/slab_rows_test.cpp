@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lighting/slab/compensation.h"
-#include "lighting/slab/exp_pair.h"
+#include "lighting/depth/exp_pair.h"
 #include "sim/base/random.h"
 
 namespace sunfleck {
