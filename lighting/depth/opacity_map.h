@@ -30,6 +30,10 @@ class OpacityMap {
   // they would be smaller than 1.5 leaf sides.
   OpacityMap(const Prototype& prototype, const Vec3& to_light, int resolution, const RunControl& control);
 
+  // The same in vector code, `rows` those of the prototype: depths within 1e-5 of it, relative.
+  OpacityMap(const Prototype& prototype, const ElementRows& rows, const Vec3& to_light, int resolution,
+             const RunControl& control);
+
   // At a point in the tree's frame. Between texels transmissions are interpolated for `before`, depths for
   // `behind`.
   OpticalDepths at(const Vec3& point_m) const;
@@ -60,9 +64,12 @@ class OpacityMap {
   template <class Visit>
   void for_each_share(const Vec3& centre, double area_m2, const Visit& visit) const;
   void add_foliage(const Prototype& prototype, const RunControl& control);
+  void add_element(const FoliageElement& element);
+  void add_rows(const Prototype& prototype, const ElementRows& rows, const RunControl& control);
   void add_wood(const Prototype& prototype, const RunControl& control);
   void cumulate(const RunControl& control);
   void measure_angles(const Prototype& prototype);
+  void measure_angles(const Prototype& prototype, const ElementRows& rows);
   OpticalDepths read(const OpacitySite& site, const OpticalDepths* own) const;
   std::size_t row(std::size_t column) const { return column * (layout_.slices + 1); }
 

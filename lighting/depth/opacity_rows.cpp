@@ -70,6 +70,48 @@ struct Depths {
           depth - static_cast<float>(k)};
 }
 
+// A map's texel and slice coordinates of points in the tree's frame, in double.
+struct TexelFrame {
+  Vec3 zero, to_x, to_y, to_z;
+
+  explicit TexelFrame(const OpacityMap& map)
+      : zero(map.texel_from_tree(Vec3(0.0))),
+        to_x(map.texel_from_tree({1, 0, 0}) - zero),
+        to_y(map.texel_from_tree({0, 1, 0}) - zero),
+        to_z(map.texel_from_tree({0, 0, 1}) - zero) {}
+  [[gnu::always_inline]] Vec3 at(const ElementRows& rows, std::size_t e) const {
+    return zero + static_cast<double>(rows.x_m[e]) * to_x + static_cast<double>(rows.y_m[e]) * to_y +
+           static_cast<double>(rows.z_m[e]) * to_z;
+  }
+};
+
+[[gnu::always_inline]] inline float shown_m2(const ElementRows& rows, std::size_t e, const Vec3f& light) {
+  return std::fabs(rows.normal_x[e] * light.x + rows.normal_y[e] * light.y + rows.normal_z[e] * light.z) +
+         rows.needles_m2[e];
+}
+
+// In one piece and inside the map: its site. Coordinates are in double, so that what an element adds and what
+// is left out of it later have the same weights.
+[[gnu::always_inline]] inline bool whole_site(const OpacityLayout& layout, const Columns& map, const Vec3& p,
+                                              float longest_m, Site& site) {
+  if (!(longest_m < 0.999f * static_cast<float>(layout.texel_m) && p.x >= 0.0 && p.y >= 0.0 &&
+        p.x < static_cast<double>(layout.texels_across - 1) &&
+        p.y < static_cast<double>(layout.texels_upwards - 1)))
+    return false;
+  const auto i = static_cast<std::int32_t>(p.x), j = static_cast<std::int32_t>(p.y);
+  site = site_at(static_cast<float>(i), static_cast<float>(j), static_cast<float>(p.z), layout, map);
+  site.right = static_cast<float>(p.x - i);
+  site.up = static_cast<float>(p.y - j);
+  return true;
+}
+
+[[gnu::always_inline]] inline std::array<float, 4> own_depths(const Site& s, float cover) {
+  return {depth_of_share(least_of(cover * ((1.0f - s.right) * (1.0f - s.up)), kMostCover)),
+          depth_of_share(least_of(cover * (s.right * (1.0f - s.up)), kMostCover)),
+          depth_of_share(least_of(cover * ((1.0f - s.right) * s.up), kMostCover)),
+          depth_of_share(least_of(cover * (s.right * s.up), kMostCover))};
+}
+
 }  // namespace
 
 Vec3 OpacityMap::texel_from_tree(const Vec3& point_m) const {
@@ -117,43 +159,64 @@ void OpacityMap::around_all(const Prototype& prototype, const ElementRows& rows,
                    behind.size() == rows.size() && cumulated_.size() < (1ull << 31));
   const Columns map{cumulated_.data(), static_cast<std::int32_t>(layout_.slices + 1),
                     static_cast<std::int32_t>(layout_.texels_across * (layout_.slices + 1))};
-  const Vec3 zero = texel_from_tree(Vec3(0.0)), to_x = texel_from_tree({1, 0, 0}) - zero,
-             to_y = texel_from_tree({0, 1, 0}) - zero, to_z = texel_from_tree({0, 0, 1}) - zero;
+  const TexelFrame frame(*this);
   const Vec3f light(layout_.axes.to_light);
   const float per_texel = static_cast<float>(1.0 / (layout_.texel_m * layout_.texel_m));
-  const double last_x = static_cast<double>(layout_.texels_across) - 1.0,
-               last_y = static_cast<double>(layout_.texels_upwards) - 1.0;
   for (std::size_t e = begin; e < end; ++e) {
-    // In double: weights of the element's own shares have to be those it was laid down with.
-    const Vec3 p = zero + static_cast<double>(rows.x_m[e]) * to_x + static_cast<double>(rows.y_m[e]) * to_y +
-                   static_cast<double>(rows.z_m[e]) * to_z;
-    const bool fits = rows.longest_m[e] < 0.999f * static_cast<float>(layout_.texel_m) && p.x >= 0.0 &&
-                      p.y >= 0.0 && p.x < last_x && p.y < last_y;
-    if (!fits) {
+    Site site;
+    if (!whole_site(layout_, map, frame.at(rows, e), rows.longest_m[e], site)) {
       const OpticalDepths slow = around(prototype.foliage[e]);
       before[e] = static_cast<float>(slow.before);
       behind[e] = static_cast<float>(slow.behind);
       continue;
     }
-    const double i = std::floor(p.x), j = std::floor(p.y);
-    Site site = site_at(static_cast<float>(i), static_cast<float>(j), static_cast<float>(p.z), layout_, map);
-    site.right = static_cast<float>(p.x - i);
-    site.up = static_cast<float>(p.y - j);
-    const float shown =
-        std::fabs(rows.normal_x[e] * light.x + rows.normal_y[e] * light.y + rows.normal_z[e] * light.z) +
-        rows.needles_m2[e];
-    const float cover = shown * per_texel;
-    const std::array<float, 4> weight{(1.0f - site.right) * (1.0f - site.up), site.right * (1.0f - site.up),
-                                      (1.0f - site.right) * site.up, site.right * site.up};
+    const std::array<float, 4> depth = own_depths(site, shown_m2(rows, e, light) * per_texel);
     std::array<Depths, 4> own;
-    for (std::size_t q = 0; q < 4; ++q) {
-      const float depth = depth_of_share(least_of(cover * weight[q], kMostCover));
-      own[q] = {site.part * depth, (1.0f - site.part) * depth};
-    }
+    for (std::size_t q = 0; q < 4; ++q) own[q] = {site.part * depth[q], (1.0f - site.part) * depth[q]};
     const Depths d = read_site(map, site, own);
     before[e] = d.before;
     behind[e] = d.behind;
   }
+}
+
+void OpacityMap::add_rows(const Prototype& prototype, const ElementRows& rows, const RunControl& control) {
+  if (layout_.slices == 0) return;
+  SUNFLECK_EXPECTS(rows.size() == prototype.foliage.size() && cumulated_.size() < (1ull << 31));
+  const Columns map{cumulated_.data(), static_cast<std::int32_t>(layout_.slices + 1),
+                    static_cast<std::int32_t>(layout_.texels_across * (layout_.slices + 1))};
+  const TexelFrame frame(*this);
+  const Vec3f light(layout_.axes.to_light);
+  const float per_texel = static_cast<float>(1.0 / (layout_.texel_m * layout_.texel_m));
+  for (std::size_t e = 0; e < rows.size(); ++e) {
+    if (e % 16384 == 0) control.check();
+    Site site;
+    if (!whole_site(layout_, map, frame.at(rows, e), rows.longest_m[e], site)) {
+      add_element(prototype.foliage[e]);
+      continue;
+    }
+    const std::array<float, 4> depth = own_depths(site, shown_m2(rows, e, light) * per_texel);
+    float* first = cumulated_.data() + site.at + 1;
+    first[0] += depth[0];
+    first[map.row] += depth[1];
+    first[map.across] += depth[2];
+    first[map.across + map.row] += depth[3];
+  }
+}
+
+void OpacityMap::measure_angles(const Prototype& prototype, const ElementRows& rows) {
+  const Vec3f light(layout_.axes.to_light);
+  double area = 0.0, projected = 0.0, squared = 0.0;
+  for (std::size_t e = 0; e < rows.size(); ++e) {
+    const float own = prototype.foliage[e].area_m2;
+    if (!(own > 0.0f)) continue;
+    const float shown = shown_m2(rows, e, light);
+    area += own;
+    projected += shown;
+    squared += rows.needles_m2[e] > 0.0f ? own / 3.0f : shown * shown / own;
+  }
+  if (!(area > 0.0)) return;  // keep the values of randomly turned leaves
+  leaf_projection_ = projected / area;
+  mean_square_cosine_ = squared / area;
 }
 
 }  // namespace sunfleck

@@ -77,8 +77,8 @@ TEST(RefinedSlab, SeesOnlyTheGroundWhereTheLineEndsAtOnce) {
   EXPECT_NEAR(slab.radiance({-0.5, 2.0, 0.0, true}, {1, 1, 1}), spp(3.0, 0.0, m).up / (2 * kPi), 1e-15);
 }
 
-// Means over the normals of 6,000 random leaves (2,000 of them looked at: noise 1 / sqrt(2000) of a spread near
-// 0.3, six times that allowed) against the closed forms for needles, which point everywhere alike.
+// Means over the normals of 6,000 random leaves (2,000 of them looked at: noise 1 / sqrt(2000) of a spread
+// near 0.3, six times that allowed) against the closed forms for needles, which point everywhere alike.
 TEST(LeafScatter, OfRandomLeavesIsTheClosedForm) {
   const Forest forest = generated_crown({CrownKind::kSphere, 6000, 1.0, 5.0, 3});
   Prototype needles = forest.prototypes[0];

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "lighting/slab/compensation.h"
 #include "lighting/depth/exp_pair.h"
+#include "lighting/slab/compensation.h"
 #include "sim/base/random.h"
 
 namespace sunfleck {
