@@ -2,8 +2,10 @@
 #include "lighting/depth/opacity_frame.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
+#include <limits>
 
 #include "sim/base/contract.h"
 
@@ -23,6 +25,36 @@ void include_extent(Box& box, const Vec3& centre, const Vec3& half_extent) {
 Vec3 half_extent(const FoliageElement& e, const LightAxes& axes) {
   const Vec3 u = glm::abs(along(axes, Vec3(e.half_u_m))), v = glm::abs(along(axes, Vec3(e.half_v_m)));
   return e.shape == ElementShape::kShoot ? u + glm::length(Vec3(e.half_v_m)) : u + v;
+}
+
+void include_wood(Box& box, const Prototype& prototype, const LightAxes& axes) {
+  for (const WoodSegment& w : prototype.wood) {
+    include_extent(box, along(axes, Vec3(w.from_m)), Vec3(w.radius_from_m));
+    include_extent(box, along(axes, Vec3(w.to_m)), Vec3(w.radius_to_m));
+  }
+  for (const WoodTriangle& t : prototype.wood_mesh)
+    for (const Vec3f& corner : {t.a_m, t.b_m, t.c_m}) box.include(along(axes, Vec3(corner)));
+}
+
+// Least and largest coordinate of all elements along an axis, in lanes of their own.
+Vec2 extent_along(const ElementRows& e, const Vec3& axis) {
+  constexpr std::size_t kLanes = 16;
+  const Vec3f a(axis);
+  std::array<float, kLanes> lo, hi;
+  lo.fill(std::numeric_limits<float>::infinity());
+  hi.fill(-std::numeric_limits<float>::infinity());
+  const auto include = [&](std::size_t i, std::size_t lane) {
+    const float c = a.x * e.x_m[i] + a.y * e.y_m[i] + a.z * e.z_m[i];
+    const float half = std::fabs(a.x * e.u_x[i] + a.y * e.u_y[i] + a.z * e.u_z[i]) +
+                       std::fabs(a.x * e.v_x[i] + a.y * e.v_y[i] + a.z * e.v_z[i]) + e.radius_m[i];
+    lo[lane] = c - half < lo[lane] ? c - half : lo[lane];
+    hi[lane] = c + half > hi[lane] ? c + half : hi[lane];
+  };
+  std::size_t i = 0;
+  for (; i + kLanes <= e.size(); i += kLanes)
+    for (std::size_t lane = 0; lane < kLanes; ++lane) include(i + lane, lane);
+  for (; i < e.size(); ++i) include(i, 0);
+  return {*std::min_element(lo.begin(), lo.end()), *std::max_element(hi.begin(), hi.end())};
 }
 
 double silhouette_area_m2(const FoliageElement& e) {
@@ -48,12 +80,7 @@ Box projected_bounds(const Prototype& prototype, const LightAxes& axes) {
   Box box;
   for (const FoliageElement& e : prototype.foliage)
     include_extent(box, along(axes, Vec3(e.centre_m)), half_extent(e, axes));
-  for (const WoodSegment& w : prototype.wood) {
-    include_extent(box, along(axes, Vec3(w.from_m)), Vec3(w.radius_from_m));
-    include_extent(box, along(axes, Vec3(w.to_m)), Vec3(w.radius_to_m));
-  }
-  for (const WoodTriangle& t : prototype.wood_mesh)
-    for (const Vec3f& corner : {t.a_m, t.b_m, t.c_m}) box.include(along(axes, Vec3(corner)));
+  include_wood(box, prototype, axes);
   return box;
 }
 
@@ -67,15 +94,16 @@ double typical_leaf_side_m(const Prototype& prototype) {
   return sum > 0.0 ? std::sqrt(squares / sum) : 0.0;
 }
 
-OpacityLayout opacity_layout(const Prototype& prototype, const Vec3& to_light, int resolution) {
+namespace {
+
+OpacityLayout layout_around(const LightAxes& axes, const Box& box, double leaf_side_m, int resolution) {
   SUNFLECK_EXPECTS(resolution > 0);
   OpacityLayout layout;
-  layout.axes = light_axes(to_light);
-  const Box box = projected_bounds(prototype, layout.axes);
+  layout.axes = axes;
   if (box.empty()) return layout;
   const Vec3 size = box.size();
   const double longest = std::max(size.x, size.y);
-  layout.texel_m = std::max(longest / resolution, kTexelsPerLeafSide * typical_leaf_side_m(prototype));
+  layout.texel_m = std::max(longest / resolution, kTexelsPerLeafSide * leaf_side_m);
   if (!(layout.texel_m > 0.0)) layout.texel_m = 1.0;  // nothing but points
   // One texel of margin takes what bilinear shares spill over the edge; a second, empty one lets depths fall
   // to 0 without a step.
@@ -86,6 +114,27 @@ OpacityLayout opacity_layout(const Prototype& prototype, const Vec3& to_light, i
   layout.corner = {box.lo.x - kMargin * layout.texel_m, box.lo.y - kMargin * layout.texel_m};
   layout.lit_side_m = size.z > 0.0 ? box.hi.z : box.hi.z + 0.5 * layout.slice_m;
   return layout;
+}
+
+}  // namespace
+
+OpacityLayout opacity_layout(const Prototype& prototype, const Vec3& to_light, int resolution) {
+  const LightAxes axes = light_axes(to_light);
+  return layout_around(axes, projected_bounds(prototype, axes), typical_leaf_side_m(prototype), resolution);
+}
+
+OpacityLayout opacity_layout(const Prototype& prototype, const ElementRows& rows, const Vec3& to_light,
+                             int resolution) {
+  const LightAxes axes = light_axes(to_light);
+  Box box;
+  if (rows.size() > 0) {
+    const Vec2 x = extent_along(rows, axes.across), y = extent_along(rows, axes.upwards),
+               z = extent_along(rows, axes.to_light);
+    box.include({x.x, y.x, z.x});
+    box.include({x.y, y.y, z.y});
+  }
+  include_wood(box, prototype, axes);
+  return layout_around(axes, box, rows.typical_side_m, resolution);
 }
 
 bool OpacityLayout::locate(const Vec3& point, OpacitySite& site) const {

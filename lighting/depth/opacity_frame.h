@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 
+#include "lighting/depth/element_rows.h"
 #include "sim/base/vec.h"
 #include "sim/plant/prototype.h"
 
@@ -51,5 +52,8 @@ struct OpacityLayout {
 
 // Texels of at least 1.5 leaf sides: below that a texel sees single leaves, and their number no mean depth.
 OpacityLayout opacity_layout(const Prototype& prototype, const Vec3& to_light, int resolution);
+// The same in vector code; `rows` are the prototype's.
+OpacityLayout opacity_layout(const Prototype& prototype, const ElementRows& rows, const Vec3& to_light,
+                             int resolution);
 
 }  // namespace sunfleck

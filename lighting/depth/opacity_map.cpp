@@ -40,6 +40,16 @@ OpacityMap::OpacityMap(const Prototype& prototype, const Vec3& to_light, int res
   cumulate(control);
 }
 
+OpacityMap::OpacityMap(const Prototype& prototype, const ElementRows& rows, const Vec3& to_light,
+                       int resolution, const RunControl& control)
+    : layout_(opacity_layout(prototype, rows, to_light, resolution)) {
+  cumulated_.assign(layout_.columns() * (layout_.slices + 1), 0.0f);
+  measure_angles(prototype, rows);
+  add_rows(prototype, rows, control);
+  add_wood(prototype, control);
+  cumulate(control);
+}
+
 template <class Visit>
 void OpacityMap::for_each_share(const Vec3& centre, double area_m2, const Visit& visit) const {
   OpacitySite site;
@@ -53,12 +63,16 @@ void OpacityMap::add_foliage(const Prototype& prototype, const RunControl& contr
   std::size_t seen = 0;
   for (const FoliageElement& e : prototype.foliage) {
     if (++seen % kCheckEvery == 0) control.check();
-    for_each_piece(e, layout_.axes.to_light, layout_.texel_m, [&](const Vec3& centre, double area_m2) {
-      for_each_share(centre, area_m2, [&](const Share& s) {
-        cumulated_[row(s.column) + s.slice + 1] += static_cast<float>(depth_of_cover(s.cover));
-      });
-    });
+    add_element(e);
   }
+}
+
+void OpacityMap::add_element(const FoliageElement& e) {
+  for_each_piece(e, layout_.axes.to_light, layout_.texel_m, [&](const Vec3& centre, double area_m2) {
+    for_each_share(centre, area_m2, [&](const Share& s) {
+      cumulated_[row(s.column) + s.slice + 1] += static_cast<float>(depth_of_cover(s.cover));
+    });
+  });
 }
 
 void OpacityMap::add_wood(const Prototype& prototype, const RunControl& control) {

@@ -9,8 +9,10 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
+#include "lighting/depth/element_rows.h"
 #include "lighting/depth/opacity_frame.h"
 #include "sim/base/run_control.h"
 #include "sim/plant/prototype.h"
@@ -28,11 +30,27 @@ class OpacityMap {
   // they would be smaller than 1.5 leaf sides.
   OpacityMap(const Prototype& prototype, const Vec3& to_light, int resolution, const RunControl& control);
 
+  // The same in vector code, `rows` those of the prototype: depths within 1e-5 of it, relative.
+  OpacityMap(const Prototype& prototype, const ElementRows& rows, const Vec3& to_light, int resolution,
+             const RunControl& control);
+
   // At a point in the tree's frame. Between texels transmissions are interpolated for `before`, depths for
   // `behind`.
   OpticalDepths at(const Vec3& point_m) const;
   // At the centre of an element of the prototype, without what the element itself contributes.
   OpticalDepths around(const FoliageElement& element) const;
+
+  // around() of elements [begin, end), `rows` and results those of the prototype, in vector code: within 5e-6
+  // of the depth of a leaf.
+  void around_all(const Prototype& prototype, const ElementRows& rows, std::size_t begin, std::size_t end,
+                  std::span<float> before, std::span<float> behind) const;
+
+  // Adds at() of many points to `before` and `behind`: points are `map_from_points` away from the map's
+  // texels and slices (texel_from_tree()). Single precision: within 1e-4 of a texel.
+  void add_at(const AffineFloat& map_from_points, std::span<const float> x, std::span<const float> y,
+              std::span<const float> z, std::span<float> before, std::span<float> behind) const;
+  // Texel (0 at the middle of the first) and slice coordinates of a point in the tree's frame.
+  Vec3 texel_from_tree(const Vec3& point_m) const;
 
   // Area-weighted means over the foliage of |n.s| (ecology's G-function) and of (n.s)^2.
   double leaf_projection() const { return leaf_projection_; }
@@ -46,9 +64,12 @@ class OpacityMap {
   template <class Visit>
   void for_each_share(const Vec3& centre, double area_m2, const Visit& visit) const;
   void add_foliage(const Prototype& prototype, const RunControl& control);
+  void add_element(const FoliageElement& element);
+  void add_rows(const Prototype& prototype, const ElementRows& rows, const RunControl& control);
   void add_wood(const Prototype& prototype, const RunControl& control);
   void cumulate(const RunControl& control);
   void measure_angles(const Prototype& prototype);
+  void measure_angles(const Prototype& prototype, const ElementRows& rows);
   OpticalDepths read(const OpacitySite& site, const OpticalDepths* own) const;
   std::size_t row(std::size_t column) const { return column * (layout_.slices + 1); }
 

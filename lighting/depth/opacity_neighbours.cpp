@@ -2,6 +2,7 @@
 #include "lighting/depth/opacity_neighbours.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <limits>
@@ -160,6 +161,26 @@ OpticalDepths OpacityNeighbours::at(std::span<const Neighbour> neighbours, const
     sum.behind += depths.behind;
   }
   return sum;
+}
+
+void OpacityNeighbours::add_at(std::span<const Neighbour> neighbours, const PlacedMap& own,
+                               std::span<const float> x, std::span<const float> y, std::span<const float> z,
+                               std::span<float> before, std::span<float> behind) const {
+  for (const Neighbour& n : neighbours) {
+    const PlacedMap& placed = placed_[n.placed];
+    // Own frame to texels, by what it does to the origin and the axes.
+    const auto texel = [&](const Vec3& p) {
+      return placed.map->texel_from_tree(placed.tree_from_world(own.world_from_tree(p) - n.shift_m));
+    };
+    const Vec3 zero = texel(Vec3(0.0));
+    const std::array<Vec3, 4> columns{texel({1, 0, 0}) - zero, texel({0, 1, 0}) - zero,
+                                      texel({0, 0, 1}) - zero, zero};
+    AffineFloat map_from_own;
+    for (int row = 0; row < 3; ++row)
+      for (std::size_t c = 0; c < 4; ++c)
+        map_from_own.row[static_cast<std::size_t>(row)][c] = static_cast<float>(columns[c][row]);
+    placed.map->add_at(map_from_own, x, y, z, before, behind);
+  }
 }
 
 }  // namespace sunfleck

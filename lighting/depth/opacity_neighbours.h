@@ -58,6 +58,10 @@ class OpacityNeighbours {
   std::vector<Neighbour> around(std::size_t instance) const;
   // Sum over them at a point relative to the table's origin.
   OpticalDepths at(std::span<const Neighbour> neighbours, const Vec3& point_m) const;
+  // Adds the same sums for many points in the frame of `own`, one of the placed, as it stands.
+  void add_at(std::span<const Neighbour> neighbours, const PlacedMap& own, std::span<const float> x,
+              std::span<const float> y, std::span<const float> z, std::span<float> before,
+              std::span<float> behind) const;
   bool complete() const { return reach_.complete; }
 
  private:

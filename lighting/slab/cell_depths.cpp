@@ -1,8 +1,10 @@
 // Depths of all cells in all sample directions, axis by axis; see cell_depths.h.
 #include "lighting/slab/cell_depths.h"
 
-#include <cmath>
+#include <algorithm>
+#include <utility>
 
+#include "lighting/depth/exp_pair.h"
 #include "lighting/slab/map_table.h"
 #include "sim/base/parallel.h"
 
@@ -13,28 +15,33 @@ constexpr double kMapBytesAtOnce = 512e6;
 
 // The compensation factor compares depths by ratios: where nothing is in the way all have to be exactly 0,
 // not the faint edge of some leaf.
-float stored_depth(double depth) { return depth < 1e-6 ? 0.0f : static_cast<float>(depth); }
+float stored_depth(float depth) { return depth < 1e-6f ? 0.0f : depth; }
 
 // In the maps of the tree itself, for one of its cells.
 struct OwnCell {
   float before = 0, behind = 0, transmission = 1;
 };
 
-std::vector<OwnCell> measure_own_cells(const Prototype& prototype, const PrototypeGrid& grid,
-                                       const OpacityMap& map, const RunControl& control) {
+std::vector<OwnCell> measure_own_cells(const Prototype& prototype, const ElementRows& rows,
+                                       const PrototypeGrid& grid, const OpacityMap& map,
+                                       const RunControl& control) {
+  std::vector<float> before(rows.size()), behind(rows.size());
+  constexpr std::size_t kElementsAtOnce = 65536;
+  for (std::size_t e = 0; e < rows.size(); e += kElementsAtOnce) {
+    control.check();
+    map.around_all(prototype, rows, e, std::min(e + kElementsAtOnce, rows.size()), before, behind);
+  }
   std::vector<OwnCell> cells(grid.cells());
   for (std::size_t c = 0; c < cells.size(); ++c) {
-    if (c % 16 == 0) control.check();
-    double before = 0.0, behind = 0.0, transmission = 0.0;
+    float sum_before = 0.0f, sum_behind = 0.0f, transmission = 0.0f;
     for (std::uint32_t k = grid.first[c]; k < grid.first[c + 1]; ++k) {
-      const OpticalDepths depths = map.around(prototype.foliage[grid.elements[k]]);
-      before += depths.before;
-      behind += depths.behind;
-      transmission += std::exp(-depths.before);
+      const std::uint32_t e = grid.elements[k];
+      sum_before += before[e];
+      sum_behind += behind[e];
+      transmission += exp_pair(before[e]).falling;
     }
-    const double n = grid.first[c + 1] - grid.first[c];
-    cells[c] = {static_cast<float>(before / n), static_cast<float>(behind / n),
-                static_cast<float>(transmission / n)};
+    const float n = static_cast<float>(grid.first[c + 1] - grid.first[c]);
+    cells[c] = {sum_before / n, sum_behind / n, transmission / n};
   }
   return cells;
 }
@@ -51,6 +58,7 @@ class Measurement {
         result_(result),
         origin_m_(forest_origin(forest)) {
     for (const Prototype& p : forest.prototypes) bounds_.push_back(prototype_bounds(p));
+    for (const PrototypeGrid& grid : grids.prototypes) centres_.emplace_back(grid);
   }
 
   void run() {
@@ -97,9 +105,9 @@ class Measurement {
     std::vector<std::vector<OwnCell>> own(maps.size());
     for_each_chunk(maps.size(), 1, control_, {}, [&](std::size_t begin, std::size_t end) {
       for (std::size_t m = begin; m < end; ++m)
-        own[m] =
-            measure_own_cells(forest_.prototypes[maps.prototype(m)], grids_.prototypes[maps.prototype(m)],
-                              maps.map(m), RunControl{control_.stop, {}});
+        own[m] = measure_own_cells(forest_.prototypes[maps.prototype(m)], maps.rows(maps.prototype(m)),
+                                   grids_.prototypes[maps.prototype(m)], maps.map(m),
+                                   RunControl{control_.stop, {}});
     });
     for (const MapWish& w : wishes) {
       const OpacityMap& map = maps.at(w.prototype, w.key);
@@ -130,18 +138,19 @@ class Measurement {
 
   void fill_instance(std::size_t i, std::size_t axis, const PlacedMap& placed,
                      const OpacityNeighbours& neighbours, const std::vector<OwnCell>& own) {
-    const std::size_t axes = result_.directions.axes();
+    const std::size_t axes = result_.directions.axes(), first = grids_.first_cell[i];
+    float* before = result_.depth.data() + axis * result_.cells + first;
+    float* behind = result_.depth.data() + (axes + axis) * result_.cells + first;
+    float* transmission = result_.transmission.data() + axis * result_.cells + first;
     const PrototypeGrid& grid = grids_.prototypes[forest_.instances[i].prototype.value];
-    const std::vector<Neighbour> around = neighbours.around(i);
+    const CellCentres& centres = centres_[forest_.instances[i].prototype.value];
+    std::vector<float> beyond_before(grid.cells(), 0.0f), beyond_behind(grid.cells(), 0.0f);
+    neighbours.add_at(neighbours.around(i), placed, centres.x, centres.y, centres.z, beyond_before,
+                      beyond_behind);
     for (std::size_t c = 0; c < grid.cells(); ++c) {
-      if (c % 64 == 0) control_.check();
-      const OpticalDepths beyond = neighbours.at(around, placed.world_from_tree(grid.centre_m[c]));
-      const std::size_t cell = grids_.first_cell[i] + c;
-      float* depth = result_.depth.data() + cell * 2 * axes;
-      depth[axis] = stored_depth(own[c].before + beyond.before);
-      depth[axes + axis] = stored_depth(own[c].behind + beyond.behind);
-      result_.transmission[cell * axes + axis] =
-          own[c].transmission * static_cast<float>(std::exp(-beyond.before));
+      before[c] = stored_depth(own[c].before + beyond_before[c]);
+      behind[c] = stored_depth(own[c].behind + beyond_behind[c]);
+      transmission[c] = own[c].transmission * exp_pair(beyond_before[c]).falling;
     }
   }
 
@@ -152,6 +161,7 @@ class Measurement {
   CellDepths& result_;
   Vec3 origin_m_;
   std::vector<Box> bounds_;
+  std::vector<CellCentres> centres_;
 };
 
 }  // namespace
@@ -159,7 +169,7 @@ class Measurement {
 CellDepths measure_cell_depths(const Forest& forest, const ForestGrids& grids, int sample_directions,
                                int map_resolution, const RunControl& control) {
   const double base_yaw_rad = forest.instances.empty() ? 0.0 : forest.instances.front().yaw_rad;
-  CellDepths result{SampleDirections(sample_directions, base_yaw_rad), {}, {}, {}, true};
+  CellDepths result{SampleDirections(sample_directions, base_yaw_rad), grids.cells(), {}, {}, {}, true};
   result.depth.resize(grids.cells() * result.directions.directions());
   result.transmission.resize(grids.cells() * result.directions.axes());
   result.turn_ratio.assign(forest.prototypes.size() * result.directions.keys(), 2.0f / 3.0f);

@@ -13,14 +13,19 @@ namespace sunfleck {
 
 struct CellDepths {
   SampleDirections directions;
-  std::vector<float> depth;         // [cell][direction], to the boundary of the trees or the ground
-  std::vector<float> transmission;  // [cell][axis], of light from above: mean of e^-depth over the elements
+  std::size_t cells = 0;
+  std::vector<float> depth;         // [direction][cell], to the boundary of the trees or the ground
+  std::vector<float> transmission;  // [axis][cell], of light from above: mean of e^-depth over the elements
   // [prototype][key of direction]: <(n.s)^2> / <|n.s|> over the leaves, 2/3 for random ones
   std::vector<float> turn_ratio;
   bool complete = true;  // false: a periodic forest repeats farther than was followed
 
-  std::span<const float> depths(std::size_t cell) const {
-    return {depth.data() + cell * directions.directions(), directions.directions()};
+  // Of all cells in one direction; directions [0, axes) look up, axis + axes is the opposite of axis.
+  std::span<const float> depths(std::size_t direction) const {
+    return {depth.data() + direction * cells, cells};
+  }
+  std::span<const float> transmissions(std::size_t axis) const {
+    return {transmission.data() + axis * cells, cells};
   }
   float turn_ratio_of(std::uint32_t prototype, std::size_t axis, double yaw_rad) const {
     return turn_ratio[prototype * directions.keys() + directions.key(axis, directions.step_of(yaw_rad))];

@@ -37,6 +37,7 @@ Real compensation_shortfall(Real before, Real behind, Real boundary_depth, Real 
 
 template float compensation_shortfall(float, float, float, float);
 template double compensation_shortfall(double, double, double, double);
+template long double compensation_shortfall(long double, long double, long double, long double);
 
 double compensation(double before, double behind, std::span<const float> boundary_depths,
                     std::span<const double> cosines) {

@@ -15,7 +15,8 @@ namespace sunfleck {
 // G_s of one direction, in [0, 1]: 0 where the medium reaches as far as the slab does, 1 where the boundary
 // is at the point. `before` and `behind`: optical depths along the beam at the point; `boundary_depth`:
 // optical depth from the point to the true boundary in the direction; `cosine`: between that direction and
-// the one to the light. Absolute error below 1e-12 (double) or 5e-6 (float).
+// the one to the light. Absolute error below 1e-14 (double) or 5e-6 (float);
+// also for long double.
 template <class Real>
 Real compensation_shortfall(Real before, Real behind, Real boundary_depth, Real cosine);
 

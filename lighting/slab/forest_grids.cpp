@@ -57,6 +57,14 @@ PrototypeGrid make_prototype_grid(const Prototype& prototype, int resolution) {
   return grid;
 }
 
+CellCentres::CellCentres(const PrototypeGrid& grid) {
+  for (const Vec3& c : grid.centre_m) {
+    x.push_back(static_cast<float>(c.x));
+    y.push_back(static_cast<float>(c.y));
+    z.push_back(static_cast<float>(c.z));
+  }
+}
+
 ForestGrids make_forest_grids(const Forest& forest, int resolution) {
   ForestGrids grids;
   for (const Prototype& prototype : forest.prototypes)

@@ -19,6 +19,13 @@ struct PrototypeGrid {
   std::size_t cells() const { return centre_m.size(); }
 };
 
+// The middles of a grid's cells as rows.
+struct CellCentres {
+  std::vector<float> x, y, z;
+
+  explicit CellCentres(const PrototypeGrid& grid);
+};
+
 // `resolution`: cells along the longest side of the foliage.
 PrototypeGrid make_prototype_grid(const Prototype& prototype, int resolution);
 

@@ -15,11 +15,12 @@ MapTable::MapTable(const Forest& forest, const std::vector<MapWish>& wishes, int
       prototype_of_.push_back(wish.prototype);
       direction.push_back(wish.to_light);
     }
+  for (const Prototype& p : forest.prototypes) rows_.push_back(element_rows(p));
   maps_.resize(prototype_of_.size());
   for_each_chunk(maps_.size(), 1, control, stage, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      maps_[i] = std::make_unique<OpacityMap>(forest.prototypes[prototype_of_[i]], direction[i], resolution,
-                                              RunControl{control.stop, {}});
+      maps_[i] = std::make_unique<OpacityMap>(forest.prototypes[prototype_of_[i]], rows_[prototype_of_[i]],
+                                              direction[i], resolution, RunControl{control.stop, {}});
   });
 }
 

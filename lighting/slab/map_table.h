@@ -35,11 +35,13 @@ class MapTable {
   std::size_t size() const { return maps_.size(); }
   const OpacityMap& map(std::size_t i) const { return *maps_[i]; }
   std::uint32_t prototype(std::size_t i) const { return prototype_of_[i]; }
+  const ElementRows& rows(std::uint32_t prototype) const { return rows_[prototype]; }
 
  private:
   std::map<std::pair<std::uint32_t, std::uint64_t>, std::size_t> index_;
   std::vector<std::unique_ptr<OpacityMap>> maps_;
   std::vector<std::uint32_t> prototype_of_;
+  std::vector<ElementRows> rows_;  // by prototype
 };
 
 // Where coordinates of placed maps are counted from: the first instance's foot.

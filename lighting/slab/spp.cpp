@@ -73,16 +73,21 @@ SlabLight<Real> spp(Real before, Real behind, const SlabMedium<Real>& medium) {
   const Real layer = b * ((Real(1) - rho) + rho * one_minus_r) * sine_x;
   const Real up = to_point * (rho * there_and_back + layer) / denominator;
 
-  // Diffuse light with the beam: scattered forward only, then all that has turned back at least once.
+  // Diffuse light with the beam: scattered forward only, then all that has turned back at least once; deeper
+  // in, where the beam is the smaller part, all light that travels forward less the beam.
+  const Real direct = std::exp(-tau);
+  const Real all_down = to_point * (damped_cosine(decay, x) + sink * sine_x) / denominator;
+  if (direct < all_down / Real(2)) return {direct, all_down - direct, up};
   const Real omega_forward = (Real(1) - medium.absorption) * (Real(1) - medium.backscatter);
   const Real forward = std::exp(-a * tau) * -std::expm1(-omega_forward * tau);
   const Real turned =
       b * to_point *
       (r * tau * phi1(b * r * tau) + rho_minus_r * there_and_back * damped_sine(decay, tau) / denominator);
-  return {std::exp(-tau), std::max(forward + turned, Real(0)), up};
+  return {direct, std::max(forward + turned, Real(0)), up};
 }
 
 template SlabLight<float> spp(float, float, const SlabMedium<float>&);
 template SlabLight<double> spp(double, double, const SlabMedium<double>&);
+template SlabLight<long double> spp(long double, long double, const SlabMedium<long double>&);
 
 }  // namespace sunfleck

@@ -12,55 +12,62 @@
 namespace sunfleck {
 namespace {
 
-struct Waves {
-  double decay;           // lambda, per slant optical depth
-  double deep_albedo;     // r
-  double one_minus_r;     // without its cancellation
-  double feed_p, feed_q;  // beam into each wave per depth
-};
-
-Waves waves(const HemisphereMedium& medium, double alpha) {
-  const double omega = 1.0 - alpha;
-  const double b = omega * medium.diffuse_backscatter;
-  const double a = alpha + b;
-  const double root = std::sqrt(alpha * (alpha + 2.0 * b));
-  const double r = b / (a + root), one_minus_r = (alpha + root) / (a + root);
-  const double scale = omega / (medium.diffuse_cosine * one_minus_r * (1.0 + r));
-  const double forward = 1.0 - medium.beam_backscatter;
-  return {root / medium.diffuse_cosine, r, one_minus_r, scale * (forward + r * medium.beam_backscatter),
-          scale * (medium.beam_backscatter + r * forward)};
-}
-
 // Integral of e^(-decay (tau - t)) e^-t over t in [0, tau]; decay = 1 needs no case of its own.
-double fed_with_beam(double decay, double tau) {
-  return std::exp(-std::min(decay, 1.0) * tau) * tau * phi1(std::abs(1.0 - decay) * tau);
+template <class Real>
+Real fed_with_beam(Real decay, Real tau) {
+  return std::exp(-std::min(decay, Real(1)) * tau) * tau * phi1(std::abs(Real(1) - decay) * tau);
 }
 
 // Integral of e^(-decay t) e^-t over t in [0, x].
-double fed_against_beam(double decay, double x) { return x * phi1((1.0 + decay) * x); }
+template <class Real>
+Real fed_against_beam(Real decay, Real x) {
+  return x * phi1((Real(1) + decay) * x);
+}
+
+template <class Real>
+SppHWaves<Real> waves_of(const HemisphereMedium& medium) {
+  const Real alpha = std::max(medium.absorption, 1e-10), omega = Real(1) - alpha;
+  const Real b = omega * Real(medium.diffuse_backscatter), m = medium.diffuse_cosine;
+  const Real a = alpha + b;
+  const Real root = std::sqrt(alpha * (alpha + Real(2) * b));
+  const Real r = b / (a + root), one_minus_r = (alpha + root) / (a + root);
+  const Real scale = omega / (m * one_minus_r * (Real(1) + r));
+  const Real backward = medium.beam_backscatter, forward = Real(1) - backward;
+  return {root / m, r, one_minus_r, scale * (forward + r * backward), scale * (backward + r * forward)};
+}
+
+template <class Real>
+SlabLight<Real> light_of(Real before, Real behind, const HemisphereMedium& medium) {
+  SUNFLECK_EXPECTS(before >= Real(0) && behind >= Real(0) && medium.diffuse_cosine > 0.0);
+  const Real tau = std::min(before, Real(1e6)), x = std::min(behind, Real(1e6)), thickness = tau + x;
+  const SppHWaves<Real> w = waves_of<Real>(medium);
+  const Real r = w.deep_albedo, rho = medium.ground_albedo;
+  const Real across = std::exp(-w.decay * thickness);
+
+  // Both boundary conditions give q at the ground, then p at the lit side.
+  const Real fed_q = w.feed_q * fed_against_beam(w.decay, thickness);
+  const Real fed_p = w.feed_p * fed_with_beam(w.decay, thickness);
+  const Real beam_on_ground = std::exp(-thickness) / Real(medium.diffuse_cosine);
+  const Real loss = -std::expm1(Real(-2) * w.decay * thickness);  // 1 - across^2
+  const Real determinant = w.one_minus_r * (Real(1) + r) + r * (r - rho) * loss;
+  const Real q_ground = ((rho - r) * (fed_p - r * across * fed_q) + rho * beam_on_ground) / determinant;
+  const Real p_lit = -r * (across * q_ground + fed_q);
+
+  const Real p = std::exp(-w.decay * tau) * p_lit + w.feed_p * fed_with_beam(w.decay, tau);
+  const Real q = std::exp(-w.decay * x) * q_ground + w.feed_q * std::exp(-tau) * fed_against_beam(w.decay, x);
+  return {std::exp(-tau), std::max(p + r * q, Real(0)), std::max(r * p + q, Real(0))};
+}
 
 }  // namespace
 
+SppHWaves<double> spp_h_waves(const HemisphereMedium& medium) { return waves_of<double>(medium); }
+
 SlabLight<double> spp_h(double before, double behind, const HemisphereMedium& medium) {
-  SUNFLECK_EXPECTS(before >= 0.0 && behind >= 0.0 && medium.diffuse_cosine > 0.0);
-  const double tau = std::min(before, 1e6), x = std::min(behind, 1e6), thickness = tau + x;
-  const Waves w = waves(medium, std::max(medium.absorption, 1e-10));
-  const double r = w.deep_albedo, rho = medium.ground_albedo;
-  const double across = std::exp(-w.decay * thickness);
+  return light_of<double>(before, behind, medium);
+}
 
-  // Both boundary conditions give q at the ground, then p at the lit side.
-  const double fed_q = w.feed_q * fed_against_beam(w.decay, thickness);
-  const double fed_p = w.feed_p * fed_with_beam(w.decay, thickness);
-  const double beam_on_ground = std::exp(-thickness) / medium.diffuse_cosine;
-  const double loss = -std::expm1(-2.0 * w.decay * thickness);  // 1 - across^2
-  const double determinant = w.one_minus_r * (1.0 + r) + r * (r - rho) * loss;
-  const double q_ground = ((rho - r) * (fed_p - r * across * fed_q) + rho * beam_on_ground) / determinant;
-  const double p_lit = -r * (across * q_ground + fed_q);
-
-  const double p = std::exp(-w.decay * tau) * p_lit + w.feed_p * fed_with_beam(w.decay, tau);
-  const double q =
-      std::exp(-w.decay * x) * q_ground + w.feed_q * std::exp(-tau) * fed_against_beam(w.decay, x);
-  return {std::exp(-tau), std::max(p + r * q, 0.0), std::max(r * p + q, 0.0)};
+SlabLight<long double> spp_h_extended(double before, double behind, const HemisphereMedium& medium) {
+  return light_of<long double>(before, behind, medium);
 }
 
 }  // namespace sunfleck

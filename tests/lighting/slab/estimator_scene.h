@@ -12,6 +12,11 @@ namespace sunfleck::test {
 inline const std::vector<SppVariant> kVariants{SppVariant::kSingleScattering, SppVariant::kSpp,
                                                SppVariant::kSppG};
 
+// With those that are meant for other scenes than the ones asked.
+inline const std::vector<SppVariant> kAllVariants{SppVariant::kSingleScattering, SppVariant::kSpp,
+                                                  SppVariant::kSppG, SppVariant::kSppH,
+                                                  SppVariant::kSppMarched};
+
 // Same leaf reflectance and transmittance on both faces, one band.
 inline OpticsTable optics_of(const Forest& forest, double reflectance, double transmittance,
                              double soil_albedo = 0.0) {

@@ -23,7 +23,7 @@ using namespace test;
 TEST(SppEstimators, ALoneLeafGetsAllItsLight) {
   const Forest forest = forest_of({square_leaf({0, 0, 2}, {0.05, 0, 0}, {0, 0.05, 0})});
   const OpticsTable optics = optics_of(forest, 0.4, 0.4);
-  for (const SppVariant variant : kVariants) {
+  for (const SppVariant variant : kAllVariants) {
     const LightMap map = estimate(forest, optics, light_of(sun_at(60), 800, 100), variant);
     const ElementLight& leaf = map.bands[0].elements[0];
     EXPECT_NEAR(leaf.front.direct_w_m2, 400, 1e-3);
@@ -84,7 +84,7 @@ TEST(SppEstimators, BlackCanopyAbsorbsSkyLight) {
       gap += 2 * mu * std::exp(-0.5 * lai / mu) / 2000;
     }
     for (const int directions : {16, 22}) {
-      SppOptions options{SppVariant::kSpp, directions, 64, 16};
+      SppOptions options{SppVariant::kSpp, directions, 64, 16, {}};
       const LightMap map =
           spp_light_map(forest, optics_of(forest, 0, 0), light_of(sun_at(30), 0, 100), options, {});
       const double value = absorbed_w(map) / (100 * forest.period->size_m.x * forest.period->size_m.y);
@@ -184,7 +184,7 @@ TEST(SppEstimators, TurnWithTheForest) {
 TEST(SppEstimators, AreAdditiveAndLinear) {
   const Forest forest = small_stand();
   const OpticsTable optics = optics_of(forest, 0.3, 0.3, 0.2);
-  for (const SppVariant variant : kVariants) {
+  for (const SppVariant variant : kAllVariants) {
     const LightMap sun = estimate(forest, optics, light_of(sun_at(50), 700, 0), variant);
     const LightMap sky = estimate(forest, optics, light_of(sun_at(50), 0, 200), variant);
     const LightMap both = estimate(forest, optics, light_of(sun_at(50), 700, 200), variant);
@@ -203,17 +203,18 @@ TEST(SppEstimators, AreAdditiveAndLinear) {
 TEST(SppEstimators, GiveTheSameBytesForAnyNumberOfThreads) {
   const Forest forest = small_stand();
   const OpticsTable optics = optics_of(forest, 0.3, 0.3, 0.2);
-  const auto run = [&](int threads) {
+  const auto run = [&](int threads, SppVariant variant) {
     LightMap map;
-    with_threads(threads,
-                 [&] { map = estimate(forest, optics, light_of(sun_at(50), 700, 200), SppVariant::kSppG); });
+    with_threads(threads, [&] { map = estimate(forest, optics, light_of(sun_at(50), 700, 200), variant); });
     return map;
   };
-  const LightMap one = run(1), two = run(2);
-  const auto& a = one.bands[0].elements;
-  const auto& b = two.bands[0].elements;
-  EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]), 0);
-  EXPECT_EQ(one.sunlit_fraction, two.sunlit_fraction);
+  for (const SppVariant variant : kAllVariants) {
+    const LightMap one = run(1, variant), two = run(2, variant);
+    const auto& a = one.bands[0].elements;
+    const auto& b = two.bands[0].elements;
+    EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]), 0);
+    EXPECT_EQ(one.sunlit_fraction, two.sunlit_fraction);
+  }
 }
 
 // From 256 yaws on, sun maps are shared by yaws within 1/128 turn (2.8 degrees). 300 trees far apart against
@@ -276,11 +277,14 @@ TEST(SppEstimators, RefuseBadOptions) {
     SppOptions options;
     std::string where;
   };
-  for (const Case& c : {Case{{SppVariant::kSpp, 17, 64, 16}, "spp.sample_directions"},
-                        Case{{SppVariant::kSpp, 22, 7, 16}, "spp.map_resolution"},
-                        Case{{SppVariant::kSpp, 22, 1025, 16}, "spp.map_resolution"},
-                        Case{{SppVariant::kSpp, 22, 64, 1}, "spp.grid_resolution"},
-                        Case{{SppVariant::kSpp, 22, 64, 65}, "spp.grid_resolution"}}) {
+  for (const Case& c :
+       {Case{{SppVariant::kSpp, 17, 64, 16, {}}, "spp.sample_directions"},
+        Case{{SppVariant::kSpp, 22, 7, 16, {}}, "spp.map_resolution"},
+        Case{{SppVariant::kSpp, 22, 1025, 16, {}}, "spp.map_resolution"},
+        Case{{SppVariant::kSpp, 22, 64, 1, {}}, "spp.grid_resolution"},
+        Case{{SppVariant::kSpp, 22, 64, 65, {}}, "spp.grid_resolution"},
+        Case{{SppVariant::kSppMarched, 22, 64, 16, {{}, {}, -1.0}}, "spp.marched.cell_m"},
+        Case{{SppVariant::kSppMarched, 22, 64, 16, {{}, {}, std::nan("")}}, "spp.marched.cell_m"}}) {
     try {
       spp_light_map(forest, optics, light_of(sun_at(10), 1, 1), c.options, {});
       FAIL() << c.where;

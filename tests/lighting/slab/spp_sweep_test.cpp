@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lighting/slab/compensation.h"
+#include "lighting/slab/printed_forms.h"
 #include "lighting/slab/spp.h"
 #include "lighting/slab/spp_h.h"
 
@@ -17,24 +18,6 @@ const std::vector<double> kDepths{0,   1e-9, 1e-6, 1e-3, 0.1,  1,    3,
                                   1e4, 1e5,  1e6,  1e12, 1e18, 1e30, std::numeric_limits<double>::infinity()};
 const std::vector<double> kAbsorptions{0, 1e-12, 1e-9, 1e-6, 1e-3, 0.05, 0.1, 0.5, 0.9, 1.0};
 const std::vector<double> kShares{0, 1e-9, 0.1, 0.5, 0.9, 1.0 - 1e-9, 1.0};
-
-// Eq. 17, 19, 22 as printed, with the sheet's mended signs but in growing and falling exponentials.
-template <class Real>
-struct Printed {
-  Real down, up;
-};
-template <class Real>
-Printed<Real> printed_form(Real tau, Real thickness, Real absorption, Real backscatter) {
-  const Real omega = Real(1) - absorption;
-  const Real decay = std::sqrt((Real(1) - omega * (Real(1) - Real(2) * backscatter)) * (Real(1) - omega));
-  const Real alpha = omega * backscatter / (Real(1) - omega * (Real(1) - backscatter) - decay);
-  const Real e1 = std::exp(-decay * thickness), e3 = std::exp(decay * thickness), c2 = Real(-1);
-  const Real determinant = alpha * alpha * e3 - e1;
-  const Real c1 = -alpha * e3 * c2 / determinant, c3 = e1 * c2 / determinant;
-  const Real down = c1 * alpha * std::exp(-decay * tau) + c2 * std::exp(-tau) + c3 * std::exp(decay * tau);
-  const Real up = c1 * std::exp(-decay * tau) + c3 * alpha * std::exp(decay * tau);
-  return {down, up};
-}
 
 template <class Real>
 bool is_sound(const SlabLight<Real>& light, Real most) {
@@ -74,7 +57,7 @@ std::pair<int, int> count_printed_failures() {
     for (const double absorption : {1e-15, 1e-9, 1e-6, 1e-3, 0.05, 0.5})
       for (const double tau : {0.0, 0.1 * std::min(thickness, 10.0), std::min(thickness, 10.0)}) {
         const auto ours = spp(tau, thickness - tau, SlabMedium<double>{absorption, 0.5, 0.0});
-        const auto theirs = printed_form(static_cast<Real>(tau), static_cast<Real>(thickness),
+        const auto theirs = printed::spp(static_cast<Real>(tau), static_cast<Real>(thickness),
                                          static_cast<Real>(absorption), Real(0.5));
         const double truth = ours.down + ours.up;
         const double value = static_cast<double>(theirs.down) + static_cast<double>(theirs.up);
@@ -94,7 +77,7 @@ TEST(SppSweep, ThePrintedFormFailsWhereOursHolds) {
   EXPECT_GT(failed_float, cases / 4);
   EXPECT_EQ(cases, cases_float);
   // Where the printed form is well conditioned both agree.
-  const auto theirs = printed_form(1.0, 3.0, 0.1, 0.4);
+  const auto theirs = printed::spp(1.0, 3.0, 0.1, 0.4);
   const auto ours = spp(1.0, 2.0, SlabMedium<double>{0.1, 0.4, 0.0});
   EXPECT_NEAR(theirs.down, ours.down, 1e-13);
   EXPECT_NEAR(theirs.up, ours.up, 1e-13);
