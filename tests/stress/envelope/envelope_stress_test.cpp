@@ -156,8 +156,32 @@ void expect_bounded(const LightMap& map, double beam, double diffuse) {
   }
 }
 
-class Stress : public testing::TestWithParam<EnvelopeSun> {};
-INSTANTIATE_TEST_SUITE_P(BothSuns, Stress, testing::Values(EnvelopeSun::kPublished, EnvelopeSun::kMarched));
+struct Method {
+  const char* name;
+  std::function<LightMap(const Forest&, const OpticsTable&, const Illumination&)> run;
+};
+
+std::vector<Method> methods() {
+  const auto published = [](EnvelopeSun sun) {
+    return [sun](const Forest& f, const OpticsTable& o, const Illumination& l) {
+      return test::envelope_map(f, o, l, sun);
+    };
+  };
+  const auto full = [](int directions) {
+    return [directions](const Forest& f, const OpticsTable& o, const Illumination& l) {
+      EnvelopeFullOptions options;
+      options.directions = directions;
+      return test::envelope_full_map(f, o, l, options);
+    };
+  };
+  return {{"published", published(EnvelopeSun::kPublished)},
+          {"marched", published(EnvelopeSun::kMarched)},
+          {"full", full(8)}};
+}
+
+class Stress : public testing::TestWithParam<Method> {};
+INSTANTIATE_TEST_SUITE_P(AllMethods, Stress, testing::ValuesIn(methods()),
+                         [](const auto& one) { return std::string(one.param.name); });
 
 TEST_P(Stress, EveryResultKeepsTheInvariants) {
   std::size_t runs = 0;
@@ -169,7 +193,7 @@ TEST_P(Stress, EveryResultKeepsTheInvariants) {
           forest,
           {.bands = {"VIS"}, .soil_albedo = {leaf.soil}, .overrides = {{"*", "VIS", {leaf.leaf, 1.0}}}});
       for (const Vec3& sun : suns()) {
-        const LightMap map = test::envelope_map(forest, optics, light_of(sun, 1e3, 1e2), GetParam());
+        const LightMap map = GetParam().run(forest, optics, light_of(sun, 1e3, 1e2));
         ASSERT_EQ(find_violation(map, index), "")
             << name << ", " << leaf.name << ", sun " << sun.x << " " << sun.y << " " << sun.z;
         expect_bounded(map, 1e3, 1e2);
@@ -184,8 +208,8 @@ TEST_P(Stress, GrazingSunIsTheLimitOfALowSun) {
   // Elevation +1e-9 and +1e-6 differ by nothing that light could show.
   const Forest forest = generated_crown({.leaves = 2000});
   const OpticsTable optics = test::optics_of(forest, {"VIS"}, 0.2);
-  const LightMap a = test::envelope_map(forest, optics, light_of({1, 0.2, 1e-9}, 500, 0), GetParam());
-  const LightMap b = test::envelope_map(forest, optics, light_of({1, 0.2, 1e-6}, 500, 0), GetParam());
+  const LightMap a = GetParam().run(forest, optics, light_of({1, 0.2, 1e-9}, 500, 0));
+  const LightMap b = GetParam().run(forest, optics, light_of({1, 0.2, 1e-6}, 500, 0));
   for (std::size_t i = 0; i < 2000; ++i)
     ASSERT_NEAR(a.bands[0].elements[i].front.total(), b.bands[0].elements[i].front.total(), 0.05);
 }
