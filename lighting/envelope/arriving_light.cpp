@@ -17,12 +17,10 @@ ArrivingLight::ArrivingLight(const PreparedParts& parts, const Sources& sources)
     : parts_(parts), sources_(sources), bands_(sources.bands.size()), lights_(sources.bands.size()) {}
 
 void ArrivingLight::receive(const Receiver& receiver) {
+  std::ranges::copy(receiver.depths, depth_.begin());
+  transmittances({depth_.data(), sources_.row}, {through_.data(), sources_.row});
   double escaping = 0.0;
-  for (std::size_t k = 0; k < parts_.set.count(); ++k) {
-    depth_[k] = receiver.depths[k];
-    through_[k] = static_cast<float>(std::exp(-static_cast<double>(receiver.depths[k])));
-    escaping += parts_.set.solid_angle_sr[k] * through_[k];
-  }
+  for (std::size_t k = 0; k < parts_.set.count(); ++k) escaping += parts_.set.solid_angle_sr[k] * through_[k];
   recollision_ = std::clamp(1.0 - escaping / (4.0 * kPi), 0.0, kLargestRecollision);
   find_ground(receiver);
   set_lights();

@@ -112,6 +112,14 @@ void bounce_sectors_plain(float depth_to_light, std::span<const float> approach,
         static_cast<float>(one_bounce_integral<double>(depth_to_light, approach[j], sector_depth[j]));
 }
 
+void transmittances(std::span<const float> depth, std::span<float> through) {
+  SUNFLECK_EXPECTS(depth.size() % kLaneCount == 0 && depth.size() == through.size());
+  for (std::size_t k = 0; k < depth.size(); k += kLaneCount) {
+    const Floats value = decay(load(&depth[k]));
+    std::memcpy(&through[k], &value, sizeof value);
+  }
+}
+
 float row_product(std::span<const float> a, std::span<const float> b, std::span<const float> c) {
   SUNFLECK_EXPECTS(a.size() % kLaneCount == 0 && a.size() == b.size() && a.size() == c.size());
   Floats sum{};

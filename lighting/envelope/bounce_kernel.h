@@ -26,6 +26,9 @@ void bounce_sectors(float depth_to_light, std::span<const float> approach,
 void bounce_sectors_plain(float depth_to_light, std::span<const float> approach,
                           std::span<const float> sector_depth, std::span<float> integral);
 
+// through[k] = exp(-depth[k]), 4e-7 relative for depths up to 80.
+void transmittances(std::span<const float> depth, std::span<float> through);
+
 // sum_k a[k] b[k] c[k] of three rows.
 float row_product(std::span<const float> a, std::span<const float> b, std::span<const float> c);
 

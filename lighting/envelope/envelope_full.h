@@ -11,7 +11,7 @@
 //
 // Where it stops being true: bounces take depths to fall off evenly from the leaf to the border, as in a
 // round crown. Crown means of scattered light come out within some percent, but light does not spread as far
-// from where it entered as it should: in closed canopies the lower layers' NIR is off by 20 to 30 %. The grid
+// from where it entered as it should: in closed canopies the lower layers' NIR is off by 15 to 25 %. The grid
 // conditions are those of extinction_grid.h; envelope_suitability() tells which of them a scene breaks.
 #pragma once
 

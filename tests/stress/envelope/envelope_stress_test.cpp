@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <memory>
 
 #include "lighting/base/summaries.h"
 #include "sim/base/error.h"
@@ -156,27 +157,31 @@ void expect_bounded(const LightMap& map, double beam, double diffuse) {
   }
 }
 
+// A forest's light under any optics and sky; `of` does once what these do not change.
+using LightOf = std::function<LightMap(const OpticsTable&, const Illumination&)>;
 struct Method {
   const char* name;
-  std::function<LightMap(const Forest&, const OpticsTable&, const Illumination&)> run;
+  std::function<LightOf(const Forest&)> of;
 };
 
 std::vector<Method> methods() {
   const auto published = [](EnvelopeSun sun) {
-    return [sun](const Forest& f, const OpticsTable& o, const Illumination& l) {
-      return test::envelope_map(f, o, l, sun);
+    return [sun](const Forest& f) -> LightOf {
+      return
+          [&f, sun](const OpticsTable& o, const Illumination& l) { return test::envelope_map(f, o, l, sun); };
     };
   };
-  const auto full = [](int directions) {
-    return [directions](const Forest& f, const OpticsTable& o, const Illumination& l) {
-      EnvelopeFullOptions options;
-      options.directions = directions;
-      return test::envelope_full_map(f, o, l, options);
+  const auto full = [](const Forest& f) -> LightOf {
+    EnvelopeFullOptions options;
+    options.directions = 8;
+    const auto prepared = std::make_shared<EnvelopePrepared>(prepare_envelope(f, options, {}));
+    return [&f, prepared](const OpticsTable& o, const Illumination& l) {
+      return envelope_full_light_map(f, o, l, *prepared, {});
     };
   };
   return {{"published", published(EnvelopeSun::kPublished)},
           {"marched", published(EnvelopeSun::kMarched)},
-          {"full", full(8)}};
+          {"full", full}};
 }
 
 class Stress : public testing::TestWithParam<Method> {};
@@ -188,12 +193,13 @@ TEST_P(Stress, EveryResultKeepsTheInvariants) {
   for (const auto& [name, make] : kScenes) {
     const Forest forest = make();
     const ForestIndex index(forest);
+    const LightOf light_map = GetParam().of(forest);
     for (const LeafCase& leaf : kLeaves) {
       const OpticsTable optics(
           forest,
           {.bands = {"VIS"}, .soil_albedo = {leaf.soil}, .overrides = {{"*", "VIS", {leaf.leaf, 1.0}}}});
       for (const Vec3& sun : suns()) {
-        const LightMap map = GetParam().run(forest, optics, light_of(sun, 1e3, 1e2));
+        const LightMap map = light_map(optics, light_of(sun, 1e3, 1e2));
         ASSERT_EQ(find_violation(map, index), "")
             << name << ", " << leaf.name << ", sun " << sun.x << " " << sun.y << " " << sun.z;
         expect_bounded(map, 1e3, 1e2);
@@ -208,8 +214,8 @@ TEST_P(Stress, GrazingSunIsTheLimitOfALowSun) {
   // Elevation +1e-9 and +1e-6 differ by nothing that light could show.
   const Forest forest = generated_crown({.leaves = 2000});
   const OpticsTable optics = test::optics_of(forest, {"VIS"}, 0.2);
-  const LightMap a = GetParam().run(forest, optics, light_of({1, 0.2, 1e-9}, 500, 0));
-  const LightMap b = GetParam().run(forest, optics, light_of({1, 0.2, 1e-6}, 500, 0));
+  const LightMap a = GetParam().of(forest)(optics, light_of({1, 0.2, 1e-9}, 500, 0));
+  const LightMap b = GetParam().of(forest)(optics, light_of({1, 0.2, 1e-6}, 500, 0));
   for (std::size_t i = 0; i < 2000; ++i)
     ASSERT_NEAR(a.bands[0].elements[i].front.total(), b.bands[0].elements[i].front.total(), 0.05);
 }
