@@ -6,8 +6,10 @@
 #include <numeric>
 
 #include "lighting/depth/extinction_grid.h"
+#include "lighting/envelope/bounce_kernel.h"
 #include "lighting/envelope/closed_forms.h"
 #include "lighting/envelope/envelope_estimator.h"
+#include "lighting/envelope/envelope_full.h"
 #include "sim/base/parallel.h"
 #include "sim/forest/generated_scenes.h"
 
@@ -89,6 +91,96 @@ BENCHMARK(estimator)
     ->ArgNames({"leaves", "marched"})
     ->ArgsProduct({{1500, 40000, 160000}, {0, 1}})
     ->Unit(benchmark::kMillisecond);
+
+OpticsTable two_bands(const Forest& forest) {
+  return OpticsTable(forest, {.bands = {"PAR", "NIR"}, .soil_albedo = {0.1, 0.2}, .overrides = {}});
+}
+
+Illumination sun_and_sky() {
+  Illumination light;
+  light.to_sun = kSun;
+  light.bands = {{500, 100}, {400, 80}};
+  return light;
+}
+
+EnvelopeFullOptions full_options(const benchmark::State& state) {
+  EnvelopeFullOptions options;
+  options.directions = static_cast<int>(state.range(1));
+  return options;
+}
+
+// What the forest alone decides.
+void full_prepare(benchmark::State& state) {
+  const Forest forest = crown(state);
+  for (auto _ : state)
+    with_threads(1, [&] { benchmark::DoNotOptimize(prepare_envelope(forest, full_options(state), {})); });
+}
+BENCHMARK(full_prepare)
+    ->ArgNames({"leaves", "directions"})
+    ->ArgsProduct({{1500, 40000, 160000}, {8, 14, 26}})
+    ->Unit(benchmark::kMillisecond);
+
+// Sun, sky, ground and two bands for all leaves.
+void full_evaluate(benchmark::State& state) {
+  const Forest forest = crown(state);
+  const OpticsTable optics = two_bands(forest);
+  const EnvelopePrepared prepared = prepare_envelope(forest, full_options(state), {});
+  LightMap map = envelope_full_light_map(forest, optics, sun_and_sky(), prepared, {});
+  const double sunlit = std::accumulate(map.sunlit_fraction.begin(), map.sunlit_fraction.end(), 0.0) /
+                        static_cast<double>(map.sunlit_fraction.size());
+  if (!plausible(sunlit)) return state.SkipWithError("wrong sunlit share");
+  for (auto _ : state)
+    with_threads(1, [&] { map = envelope_full_light_map(forest, optics, sun_and_sky(), prepared, {}); });
+  for (const StageTime& stage : map.provenance.times) state.counters[stage.stage + "_ms"] = 1e3 * stage.cpu_s;
+  state.counters["memory_MB"] = static_cast<double>(prepared.memory_bytes()) / 1e6;
+}
+BENCHMARK(full_evaluate)
+    ->ArgNames({"leaves", "directions"})
+    ->ArgsProduct({{1500, 40000, 160000}, {8, 14, 26, 50}})
+    ->Unit(benchmark::kMillisecond);
+
+// One leaf after the other, as a caller with few questions asks.
+void full_query(benchmark::State& state) {
+  const Forest forest = crown(state);
+  const OpticsTable optics = two_bands(forest);
+  const EnvelopePrepared prepared = prepare_envelope(forest, full_options(state), {});
+  const EnvelopeQuery query(forest, optics, sun_and_sky(), prepared, {});
+  const LightMap map = envelope_full_light_map(forest, optics, sun_and_sky(), prepared, {});
+  if (query.at_element(77).bands[1].front.total() != map.bands[1].elements[77].front.total())
+    return state.SkipWithError("a single answer differs from the map");
+  std::size_t i = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(query.at_element(i));
+    i = (i + 7919) % map.sunlit_fraction.size();
+  }
+}
+BENCHMARK(full_query)->ArgNames({"leaves", "directions"})->ArgsProduct({{40000}, {8, 14, 26}});
+
+void bounce_rows(benchmark::State& state) {
+  const bool plain = state.range(0) == 0;
+  std::vector<float> light(16), approach(16), integral(16), twin(16);
+  for (std::size_t k = 0; k < 16; ++k) {
+    light[k] = 0.1f * static_cast<float>(k);
+    approach[k] = std::cos(static_cast<float>(k));
+  }
+  envelope::bounce_row(light, approach, 1.0f, integral);
+  envelope::bounce_row_plain(light, approach, 1.0f, twin);
+  for (std::size_t k = 0; k < 16; ++k)
+    if (std::abs(integral[k] - twin[k]) > 4e-6f) return state.SkipWithError("the kernel is not its twin");
+  float depth = 0.1f;
+  for (auto _ : state) {
+    if (plain)
+      envelope::bounce_row_plain(light, approach, depth, integral);
+    else
+      envelope::bounce_row(light, approach, depth, integral);
+    depth = depth < 3.0f ? depth + 0.01f : 0.1f;
+    benchmark::DoNotOptimize(integral.data());
+  }
+  state.counters["per_integral"] =
+      benchmark::Counter(16.0 * static_cast<double>(state.iterations()),
+                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(bounce_rows)->ArgName("vector")->Arg(0)->Arg(1);
 
 void one_bounce(benchmark::State& state) {
   double depth = 0.1, sum = 0.0;

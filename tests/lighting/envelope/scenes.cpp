@@ -43,6 +43,11 @@ LightMap envelope_map(const Forest& forest, const OpticsTable& optics, const Ill
   return envelope_light_map(forest, optics, light, {.sun = sun, .cell_m = 0}, {});
 }
 
+LightMap envelope_full_map(const Forest& forest, const OpticsTable& optics, const Illumination& light,
+                           const EnvelopeFullOptions& options) {
+  return envelope_full_light_map(forest, optics, light, options, {});
+}
+
 namespace {
 // All elements of the test scenes have the same area: a plain mean.
 double mean_part(const LightMap& map, float FaceLight::*part) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "lighting/envelope/envelope_estimator.h"
+#include "lighting/envelope/envelope_full.h"
 
 namespace sunfleck::test {
 
@@ -18,6 +19,8 @@ OpticsTable optics_of(const Forest& forest, std::vector<std::string> bands, doub
 
 LightMap envelope_map(const Forest& forest, const OpticsTable& optics, const Illumination& light,
                       EnvelopeSun sun = EnvelopeSun::kMarched);
+LightMap envelope_full_map(const Forest& forest, const OpticsTable& optics, const Illumination& light,
+                           const EnvelopeFullOptions& options);
 
 // Area-weighted mean of front + back of one part over the elements of a forest's first band.
 double mean_direct(const LightMap& map);

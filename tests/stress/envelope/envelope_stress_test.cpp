@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <memory>
 
 #include "lighting/base/summaries.h"
 #include "sim/base/error.h"
@@ -156,20 +157,49 @@ void expect_bounded(const LightMap& map, double beam, double diffuse) {
   }
 }
 
-class Stress : public testing::TestWithParam<EnvelopeSun> {};
-INSTANTIATE_TEST_SUITE_P(BothSuns, Stress, testing::Values(EnvelopeSun::kPublished, EnvelopeSun::kMarched));
+// A forest's light under any optics and sky; `of` does once what these do not change.
+using LightOf = std::function<LightMap(const OpticsTable&, const Illumination&)>;
+struct Method {
+  const char* name;
+  std::function<LightOf(const Forest&)> of;
+};
+
+std::vector<Method> methods() {
+  const auto published = [](EnvelopeSun sun) {
+    return [sun](const Forest& f) -> LightOf {
+      return
+          [&f, sun](const OpticsTable& o, const Illumination& l) { return test::envelope_map(f, o, l, sun); };
+    };
+  };
+  const auto full = [](const Forest& f) -> LightOf {
+    EnvelopeFullOptions options;
+    options.directions = 8;
+    const auto prepared = std::make_shared<EnvelopePrepared>(prepare_envelope(f, options, {}));
+    return [&f, prepared](const OpticsTable& o, const Illumination& l) {
+      return envelope_full_light_map(f, o, l, *prepared, {});
+    };
+  };
+  return {{"published", published(EnvelopeSun::kPublished)},
+          {"marched", published(EnvelopeSun::kMarched)},
+          {"full", full}};
+}
+
+class Stress : public testing::TestWithParam<Method> {};
+INSTANTIATE_TEST_SUITE_P(AllMethods, Stress, testing::ValuesIn(methods()),
+                         [](const auto& one) { return std::string(one.param.name); });
 
 TEST_P(Stress, EveryResultKeepsTheInvariants) {
   std::size_t runs = 0;
   for (const auto& [name, make] : kScenes) {
     const Forest forest = make();
     const ForestIndex index(forest);
+    const LightOf light_map = GetParam().of(forest);
     for (const LeafCase& leaf : kLeaves) {
       const OpticsTable optics(
           forest,
           {.bands = {"VIS"}, .soil_albedo = {leaf.soil}, .overrides = {{"*", "VIS", {leaf.leaf, 1.0}}}});
       for (const Vec3& sun : suns()) {
-        const LightMap map = test::envelope_map(forest, optics, light_of(sun, 1e3, 1e2), GetParam());
+        const LightMap map = light_map(optics, light_of(sun, 1e3, 1e2));
         ASSERT_EQ(find_violation(map, index), "")
             << name << ", " << leaf.name << ", sun " << sun.x << " " << sun.y << " " << sun.z;
         expect_bounded(map, 1e3, 1e2);
@@ -184,8 +214,8 @@ TEST_P(Stress, GrazingSunIsTheLimitOfALowSun) {
   // Elevation +1e-9 and +1e-6 differ by nothing that light could show.
   const Forest forest = generated_crown({.leaves = 2000});
   const OpticsTable optics = test::optics_of(forest, {"VIS"}, 0.2);
-  const LightMap a = test::envelope_map(forest, optics, light_of({1, 0.2, 1e-9}, 500, 0), GetParam());
-  const LightMap b = test::envelope_map(forest, optics, light_of({1, 0.2, 1e-6}, 500, 0), GetParam());
+  const LightMap a = GetParam().of(forest)(optics, light_of({1, 0.2, 1e-9}, 500, 0));
+  const LightMap b = GetParam().of(forest)(optics, light_of({1, 0.2, 1e-6}, 500, 0));
   for (std::size_t i = 0; i < 2000; ++i)
     ASSERT_NEAR(a.bands[0].elements[i].front.total(), b.bands[0].elements[i].front.total(), 0.05);
 }

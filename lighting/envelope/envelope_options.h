@@ -1,0 +1,58 @@
+// What the complete envelope method can be told: every correction of the published model has a name and can
+// be taken away.
+#pragma once
+
+#include <string>
+
+#include "lighting/envelope/envelope_estimator.h"
+
+namespace sunfleck {
+
+enum class EnvelopeAngles {
+  kSpherical,  // leaf normals in all directions alike, as published
+  kMeasured    // the normals of the forest's own leaves
+};
+
+enum class EnvelopeBounces {
+  kSunOnce,  // one bounce of sunlight, as published
+  kOnce,     // one bounce of sun, sky and ground light
+  kAll       // that, and all further bounces by the chance of light to meet leaves again
+};
+
+enum class EnvelopeGround {
+  kFullyLit,  // as if nothing stood on it, as published
+  kShaded     // lit through the canopy, by what the canopy throws down too
+};
+
+enum class EnvelopeWeights {
+  kPlain,  // solid angle times cosine, as published: 0.82 to 1.16 of an even sky with 8 directions
+  kCosine  // scaled per leaf so that light that is the same from everywhere counts exactly
+};
+
+enum class EnvelopeOwnLeaf {
+  kKept,    // a leaf shades itself like its neighbours do
+  kRemoved  // its own part of its cell is taken out
+};
+
+struct EnvelopeFullOptions {
+  int directions = 14;  // 8, 14, 26 or 50: time grows a little faster, errors hardly fall beyond 14
+  EnvelopeSun sun = EnvelopeSun::kMarched;
+  EnvelopeAngles angles = EnvelopeAngles::kMeasured;
+  EnvelopeBounces bounces = EnvelopeBounces::kAll;
+  EnvelopeGround ground = EnvelopeGround::kShaded;
+  EnvelopeWeights weights = EnvelopeWeights::kCosine;
+  EnvelopeOwnLeaf own_leaf = EnvelopeOwnLeaf::kRemoved;
+  double cell_m = 0;  // of the leaf-area grid; 0: clamp(extent / 32, 2 side, 4 side)
+};
+
+std::string to_string(EnvelopeSun value);      // published, marched
+std::string to_string(EnvelopeAngles value);   // spherical, measured
+std::string to_string(EnvelopeBounces value);  // sun_once, once, all
+std::string to_string(EnvelopeGround value);   // fully_lit, shaded
+std::string to_string(EnvelopeWeights value);  // plain, cosine
+std::string to_string(EnvelopeOwnLeaf value);  // kept, removed
+
+// Throws Error(kInvalidInput) naming "envelope_full.<field>".
+void check(const EnvelopeFullOptions& options);
+
+}  // namespace sunfleck
