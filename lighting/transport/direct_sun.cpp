@@ -40,15 +40,16 @@ void light_ground(DirectSun& sun, const GroundMap& ground, const ExtinctionGrid&
   });
 }
 
-void light_wood(DirectSun& sun, const TransportScene& scene, const ExtinctionGrid& grid,
+void light_wood(DirectSun& sun, const TransportScene& scene, const ExtinctionGrid& grid, const Vec3& to_sun,
                 const RunControl& control) {
-  const GridLayout& layout = scene.field->layout();
+  const GridLayout& layout = scene.layout;
+  const std::vector<float> depths = wood_depths(scene.contents, *scene.field, to_sun);
   for_each_chunk(sun.wood.size(), kPointsPerChunk, control, {}, [&](std::size_t begin, std::size_t end) {
     for (std::size_t w = begin; w < end; ++w) {
       const auto cell = layout.unflat(scene.contents.wood[w].cell);
       const Vec3 centre = layout.lo_m + (Vec3(cell[0], cell[1], cell[2]) + 0.5) * layout.cell_m;
-      sun.wood[w] = static_cast<float>(
-          std::exp(-grid.depth_from_point(scene.ground->world_from_field(centre), March::kForward)));
+      sun.wood[w] = depths[w] * static_cast<float>(std::exp(-grid.depth_from_point(
+                                    scene.ground->world_from_field(centre), March::kForward)));
     }
   });
 }
@@ -68,7 +69,7 @@ DirectSun direct_sun(const TransportScene& scene, const Forest& forest, const Ve
   const ExtinctionGrid grid(field, to_sun, control);
   light_elements(sun, field, grid, to_sun, control);
   light_ground(sun, *scene.ground, grid, control);
-  light_wood(sun, scene, grid, control);
+  light_wood(sun, scene, grid, to_sun, control);
   return sun;
 }
 

@@ -11,7 +11,7 @@ struct DirectSun {
   std::vector<FacePair> elements;      // irradiance
   std::vector<float> sunlit_fraction;  // of elements
   std::vector<float> ground;           // irradiance of ground cells
-  std::vector<float> wood;             // transmittance to cells with wood
+  std::vector<float> wood;             // transmittance to cells with wood, times their wood_depths()
   double open_ground = 0;              // irradiance of the open ground
 };
 

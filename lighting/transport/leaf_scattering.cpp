@@ -157,8 +157,7 @@ double LeafScattering::wood_order(std::size_t index, Cell& cell, double scale, c
     weight += 2.0f * lanes_.solid_angle_sr[j] * wood.depth[j];
   }
   float radiance = static_cast<float>(scale) * arriving / weight;
-  if (!direct.wood.empty())
-    radiance += static_cast<float>(direct.beam_w_m2) * direct.wood[index] * wood.sun_depth / weight;
+  if (!direct.wood.empty()) radiance += static_cast<float>(direct.beam_w_m2) * direct.wood[index] / weight;
   orders.wood_last[index] = radiance;
   orders.wood_total[index] += radiance;
   return static_cast<double>(bark_reflectance_) * radiance * weight * face_m2_;

@@ -42,7 +42,7 @@ struct Orders {
   std::vector<float> wood_last, wood_total;
 };
 
-// Direct light: per element the irradiance of both faces, per WoodCell the sun's share.
+// Direct light: per element the irradiance of both faces, per WoodCell what its wood takes.
 struct DirectLight {
   std::span<const FacePair> elements;  // empty: none
   std::span<const float> wood;
