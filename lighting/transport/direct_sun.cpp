@@ -11,23 +11,6 @@ namespace sunfleck::transport {
 
 namespace {
 
-void light_elements(DirectSun& sun, const BlockerField& field, const ExtinctionGrid& grid, const Vec3& to_sun,
-                    const RunControl& control) {
-  const std::vector<float> depths = grid.depth_of_elements(March::kForward, control);
-  for_each_chunk(depths.size(), 4096, control, {}, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const FieldElement& e = field.elements()[i];
-      if (e.below_ground) continue;
-      const double seen = std::exp(-static_cast<double>(depths[i])) * own_transmittance(e, to_sun);
-      const double cosine = e.is_shoot() ? 0.0 : glm::dot(Vec3(e.axis), to_sun);
-      const double even = e.is_shoot() ? 0.25 : 0.0;  // mean over needles that face everywhere
-      sun.sunlit_fraction[i] = static_cast<float>(seen);
-      sun.elements[i] = {static_cast<float>(seen * (even + std::max(0.0, cosine))),
-                         static_cast<float>(seen * (even + std::max(0.0, -cosine)))};
-    }
-  });
-}
-
 // Small chunks: level rays go around a periodic scene many times.
 constexpr std::size_t kPointsPerChunk = 16;
 
@@ -56,6 +39,24 @@ void light_wood(DirectSun& sun, const TransportScene& scene, const ExtinctionGri
 
 }  // namespace
 
+void light_elements(DirectSun& sun, const BlockerField& field, std::span<const float> depths,
+                    const Vec3& to_sun, const RunControl& control) {
+  sun.elements.assign(field.elements().size(), {});
+  sun.sunlit_fraction.assign(field.elements().size(), 0.0f);
+  for_each_chunk(depths.size(), 4096, control, {}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const FieldElement& e = field.elements()[i];
+      if (e.below_ground) continue;
+      const double seen = std::exp(-static_cast<double>(depths[i])) * own_transmittance(e, to_sun);
+      const double cosine = e.is_shoot() ? 0.0 : glm::dot(Vec3(e.axis), to_sun);
+      const double even = e.is_shoot() ? 0.25 : 0.0;  // mean over needles that face everywhere
+      sun.sunlit_fraction[i] = static_cast<float>(seen);
+      sun.elements[i] = {static_cast<float>(seen * (even + std::max(0.0, cosine))),
+                         static_cast<float>(seen * (even + std::max(0.0, -cosine)))};
+    }
+  });
+}
+
 DirectSun direct_sun(const TransportScene& scene, const Forest& forest, const Vec3& to_sun,
                      const RunControl& control) {
   const BlockerField& field = *scene.field;
@@ -67,7 +68,7 @@ DirectSun direct_sun(const TransportScene& scene, const Forest& forest, const Ve
   if (field.ends_on_ground(to_sun)) return sun;
   sun.open_ground = glm::dot(to_sun, forest.terrain.normal());
   const ExtinctionGrid grid(field, to_sun, control);
-  light_elements(sun, field, grid, to_sun, control);
+  light_elements(sun, field, grid.depth_of_elements(March::kForward, control), to_sun, control);
   light_ground(sun, *scene.ground, grid, control);
   light_wood(sun, scene, grid, to_sun, control);
   return sun;

@@ -146,4 +146,14 @@ std::vector<FacePair> gather(const TransportScene& scene, std::span<const float>
   return light;
 }
 
+void add_light_inside_shoot(const CellContents& contents, std::size_t e, const std::vector<LeafBand>& leaf,
+                            ElementLight& light) {
+  if (contents.first_part_of_element[e] == contents.first_part_of_element[e + 1]) return;
+  const LeafPart& part = contents.parts[contents.parts_of_element[contents.first_part_of_element[e]]];
+  const float gain = shoot_gain(leaf[part.optics].albedo, contents.shoots[part.shoot - 1].escape) - 1.0f;
+  const float inside = gain * 0.5f * (light.front.total() + light.back.total());
+  light.front.scattered_w_m2 += inside;
+  light.back.scattered_w_m2 += inside;
+}
+
 }  // namespace sunfleck::transport

@@ -125,20 +125,10 @@ class GridEstimate {
                                  problem.diffuse_w_m2 * sky_.on_elements[e].front, scattered[e].front);
         elements[e].back = face(problem.beam_w_m2 * direct.back,
                                 problem.diffuse_w_m2 * sky_.on_elements[e].back, scattered[e].back);
-        if (scene_.field->elements()[e].is_shoot()) add_light_inside_shoot(e, leaf, elements[e]);
+        if (scene_.field->elements()[e].is_shoot())
+          add_light_inside_shoot(scene_.contents, e, leaf, elements[e]);
       }
     });
-  }
-
-  // Needles of a shoot light each other.
-  void add_light_inside_shoot(std::size_t e, const std::vector<LeafBand>& leaf, ElementLight& light) const {
-    const CellContents& contents = scene_.contents;
-    if (contents.first_part_of_element[e] == contents.first_part_of_element[e + 1]) return;
-    const LeafPart& part = contents.parts[contents.parts_of_element[contents.first_part_of_element[e]]];
-    const float gain = shoot_gain(leaf[part.optics].albedo, contents.shoots[part.shoot - 1].escape) - 1.0f;
-    const float inside = gain * 0.5f * (light.front.total() + light.back.total());
-    light.front.scattered_w_m2 += inside;
-    light.back.scattered_w_m2 += inside;
   }
 
   // A period is closed but for the sky: what the parts of the estimate do not agree on is the residual.

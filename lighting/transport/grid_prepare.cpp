@@ -56,9 +56,11 @@ GridPrepared prepare_grid(const Forest& forest, const GridOptions& options, cons
   {
     const StageTimer timer(provenance, "leaf-area grid");
     prepared.forest_hash = content_hash(forest);
-    prepared.scene = std::make_shared<const TransportScene>(
-        transport_scene(forest, index, directions_for(forest, options.directions),
-                        field_options(options, index.element_count()), control));
+    TransportScene scene = transport_scene(forest, index, directions_for(forest, options.directions),
+                                           field_options(options, index.element_count()), control);
+    scene.ground = std::make_unique<GroundMap>(forest, scene.frame, scene.layout, scene.set,
+                                               GroundMap::kUsualCellsPerSide, control);
+    prepared.scene = std::make_shared<const TransportScene>(std::move(scene));
     prepared.notes = grid_notes(forest, *prepared.scene);
   }
   prepared.times = std::move(provenance.times);

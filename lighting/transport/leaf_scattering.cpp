@@ -77,14 +77,16 @@ struct LeafScattering::Cell {
 };
 
 LeafScattering::LeafScattering(const CellContents& contents, const DirectionLanes& lanes, std::size_t half,
-                               double cell_face_m2, std::vector<LeafBand> bands, double bark_reflectance)
+                               double cell_face_m2, std::vector<LeafBand> bands, double bark_reflectance,
+                               const Background* background)
     : contents_(contents),
       lanes_(lanes),
       half_(half),
       cells_(contents.first_part.size() - 1),
       face_m2_(cell_face_m2),
       bands_(std::move(bands)),
-      bark_reflectance_(static_cast<float>(bark_reflectance)) {}
+      bark_reflectance_(static_cast<float>(bark_reflectance)),
+      background_(background) {}
 
 void LeafScattering::part_depths(const LeafPart& part, Lanes& cosine, Lanes& depth) const {
   if (part.shoot > 0) return shoot_depths(contents_.shoots[part.shoot - 1], lanes_, cosine, depth);
@@ -173,11 +175,17 @@ void LeafScattering::for_each_cell(std::span<const float> radiance, std::span<fl
     std::uint32_t wood = range.wood_begin;
     for (std::uint32_t c = range.begin; c < range.end; ++c) {
       const bool has_wood = wood < range.wood_end && contents_.wood[wood].cell == c;
-      if (first_part[c] == first_part[c + 1] && !has_wood) {
+      if (first_part[c] == first_part[c + 1] && !has_wood && background_ == nullptr) {
         for (std::size_t d = 0; d < 2 * half_; ++d) source[d * cells_ + c] = 0.0f;
         continue;
       }
       Cell cell;
+      if (background_ != nullptr) {
+        const std::uint32_t kind = background_->of_cell[c];
+        cell.depth = background_->depth[kind];
+        cell.source_near = background_->source_near[kind];
+        cell.source_far = background_->source_far[kind];
+      }
       for (std::size_t j = 0; j < half_ && !radiance.empty(); ++j) {
         cell.near[j] = radiance[j * cells_ + c];
         cell.far[j] = radiance[(half_ + j) * cells_ + c];
@@ -193,8 +201,10 @@ void LeafScattering::for_each_cell(std::span<const float> radiance, std::span<fl
         ++wood;
       }
       for (std::size_t j = 0; j < half_; ++j) {
-        source[j * cells_ + c] = cell.source_near[j] / cell.depth[j];
-        source[(half_ + j) * cells_ + c] = cell.source_far[j] / cell.depth[j];
+        // Nothing at all is in many cells of a background.
+        const float per_depth = cell.depth[j] > 0.0f ? 1.0f / cell.depth[j] : 0.0f;
+        source[j * cells_ + c] = cell.source_near[j] * per_depth;
+        source[(half_ + j) * cells_ + c] = cell.source_far[j] * per_depth;
       }
     }
   });

@@ -17,8 +17,6 @@ TransportScene transport_scene(const Forest& forest, const ForestIndex& index, D
   scene.lanes = direction_lanes(scene.set, scene.step_cells());
   scene.contents = cell_contents(forest, index, *scene.field, scene.set, scene.lanes, control);
   scene.transmittance = half_step_transmittance(scene.contents, scene.lanes, scene.set.half(), control);
-  scene.ground = std::make_unique<GroundMap>(forest, scene.frame, scene.layout, scene.set,
-                                             GroundMap::kUsualCellsPerSide, control);
   return scene;
 }
 

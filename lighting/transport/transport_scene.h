@@ -21,7 +21,7 @@ struct TransportScene : SweepSpace {
   }
 };
 
-// `index` is that of `forest`; `set` as from directions_for().
+// All but the ground. `index` is that of `forest`; `set` as from directions_for().
 TransportScene transport_scene(const Forest& forest, const ForestIndex& index, DirectionSet set,
                                const BlockerFieldOptions& options, const RunControl& control);
 
