@@ -70,7 +70,9 @@ class BlockerFieldBuilder {
   BlockerFieldBuilder(BlockerField& field, const Forest& forest, const RunControl& control)
       : field_(field), forest_(forest), index_(forest), control_(control) {}
 
-  void choose_frame() { field_.frame_ = grid_frame(forest_); }
+  void choose_frame(const BlockerFieldOptions& options) {
+    field_.frame_ = options.frame ? *options.frame : grid_frame(forest_);
+  }
 
   void flatten_elements() {
     if (index_.element_count() >= (1ull << 32))
@@ -221,7 +223,7 @@ class BlockerFieldBuilder {
 BlockerField::BlockerField(const Forest& forest, const BlockerFieldOptions& options,
                            const RunControl& control) {
   BlockerFieldBuilder builder(*this, forest, control);
-  builder.choose_frame();
+  builder.choose_frame(options);
   builder.flatten_elements();
   SUNFLECK_EXPECTS(!elements_.empty());
   builder.choose_grid(options);

@@ -87,7 +87,9 @@ void check_grid_options(const GridOptions& o) {
 std::uint64_t grid_bytes(std::uint64_t cells, std::uint64_t elements, int directions) {
   // Sky, light on its way and, for half the directions, transmittance; 16 directions stand for 14.
   const std::uint64_t floats = 5ull * static_cast<std::uint64_t>((directions == 14 ? 16 : directions) / 2);
-  return cells * (sizeof(float) * floats + sizeof(std::uint32_t)) + elements * 200;
+  // And for the light of leaves radiance once more, cell by cell.
+  constexpr std::uint64_t kByCell = 128;
+  return cells * (sizeof(float) * floats + kByCell + sizeof(std::uint32_t)) + elements * 200;
 }
 
 GridSuitability grid_suitability(const Forest& forest, const GridOptions& options) {

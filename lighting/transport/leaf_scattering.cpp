@@ -11,15 +11,6 @@ namespace sunfleck::transport {
 
 namespace {
 
-// Sums in a fixed order that runs in vector registers.
-float sum_of(const Lanes& a) {
-  static_assert(kLanes == 16);
-  float eight[8], four[4];
-  for (std::size_t j = 0; j < 8; ++j) eight[j] = a[j] + a[j + 8];
-  for (std::size_t j = 0; j < 4; ++j) four[j] = eight[j] + eight[j + 4];
-  return (four[0] + four[2]) + (four[1] + four[3]);
-}
-
 constexpr float kPiF = static_cast<float>(kPi);
 
 FacePair with_tail(const FacePair& total, const FacePair& last, double tail) {

@@ -1,9 +1,6 @@
 // See world_surroundings.h.
 #include "lighting/transport/world_surroundings.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "lighting/depth/grid_march.h"
 
 namespace sunfleck::transport {
@@ -71,6 +68,11 @@ std::array<int, 3> Surroundings::place(std::size_t b) const {
           lo_[2] + static_cast<int>(b / nx / ny)};
 }
 
+Vec3 Surroundings::centre(std::size_t b) const {
+  const std::array<int, 3> at = place(b);
+  return scene_.layout.lo_m + (Vec3(at[0], at[1], at[2]) + 0.5) * scene_.layout.cell_m;
+}
+
 std::uint32_t Surroundings::block_cell(const Vec3& point_m) const {
   std::size_t index = 0;
   for (std::size_t a = 3; a-- > 0;) {
@@ -106,6 +108,37 @@ float Surroundings::between(const float* field, const Vec3& point_m) const {
   const auto row = [&](const float* r) { return mix(r[0], r[1], part[0]); };
   const auto plane = [&](const float* p) { return mix(row(p), row(p + nx), part[1]); };
   return mix(plane(f), plane(f + nxy), part[2]);
+}
+
+BlockLookup::BlockLookup(const Surroundings& around, const WorldScene& scene, const GridLayout& fine,
+                         const Vec3& origin_m)
+    : row_(static_cast<std::size_t>(around.size()[0])),
+      plane_(row_ * static_cast<std::size_t>(around.size()[1])),
+      highest_(static_cast<float>(around.size()[2] - 2)),
+      x_(along(0, around, scene, fine, origin_m, 1)),
+      y_(along(1, around, scene, fine, origin_m, row_)) {
+  const double base = fine.lo_m.z + origin_m.z - scene.frame.origin_m.z - scene.layout.lo_m.z;
+  for (int k = -1; k <= fine.cells[2]; ++k)
+    height_.push_back(static_cast<float>((base + (k + 0.5) * fine.cell_m.z) / scene.layout.cell_m.z - 0.5 -
+                                         around.lo()[2]));
+}
+
+std::vector<BlockLookup::Part> BlockLookup::along(int axis, const Surroundings& around,
+                                                  const WorldScene& scene, const GridLayout& fine,
+                                                  const Vec3& origin_m, std::size_t stride) const {
+  const auto a = static_cast<std::size_t>(axis);
+  std::vector<Part> parts;
+  for (int i = -1; i <= fine.cells[a]; ++i) {
+    const double p =
+        fine.lo_m[axis] + (i + 0.5) * fine.cell_m[axis] + origin_m[axis] - scene.frame.origin_m[axis];
+    const double at =
+        (p - scene.layout.lo_m[axis]) / scene.layout.cell_m[axis] - 0.5 - around.lo()[a];
+    const double low = std::clamp(std::floor(at), 0.0, static_cast<double>(around.size()[a] - 2));
+    parts.push_back({static_cast<std::size_t>(low) * stride,
+                     static_cast<float>(std::clamp(at - low, 0.0, 1.0)),
+                     static_cast<float>(scene.frame.shear[axis] * p / scene.layout.cell_m.z)});
+  }
+  return parts;
 }
 
 std::vector<float> block_radiance(const WorldScene& scene, const Surroundings& around,

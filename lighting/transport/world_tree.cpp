@@ -37,22 +37,23 @@ Forest only_tree(const Forest& forest, std::size_t instance) {
   return tree;
 }
 
+// A frame with its origin at the stem foot.
+GridFrame tree_frame(const Forest& tree) {
+  GridFrame frame;
+  frame.ground_normal = tree.terrain.normal();
+  frame.origin_m = tree.instances[0].position_m;
+  return frame;
+}
+
 // Light along one direction at the border of the fine grid.
 class BlockInflow final : public Inflow {
  public:
-  BlockInflow(const Surroundings& around, const float* radiance, const TransportScene& fine,
-              const GridFrame& world)
-      : around_(around), radiance_(radiance), fine_(fine), world_(world) {}
-  float radiance(const std::array<int, 3>& cell) const override {
-    const Vec3 p = fine_.layout.lo_m + (Vec3(cell[0], cell[1], cell[2]) + 0.5) * fine_.layout.cell_m;
-    return around_.between(radiance_, world_.unwrapped_from_world(p + fine_.frame.origin_m));
-  }
+  BlockInflow(const BlockLookup& lookup, const float* radiance) : lookup_(lookup), radiance_(radiance) {}
+  float radiance(const std::array<int, 3>& cell) const override { return lookup_.value(radiance_, cell); }
 
  private:
-  const Surroundings& around_;
+  const BlockLookup& lookup_;
   const float* radiance_;
-  const TransportScene& fine_;
-  const GridFrame& world_;
 };
 
 class TreeSolver {
@@ -67,15 +68,23 @@ class TreeSolver {
         control_(control),
         tree_(only_tree(forest, instance)),
         index_(tree_),
-        fine_(transport_scene(
-            tree_, index_, scene_.set,
-            {.max_cells = kMostFineCells, .margin_m = kMarginCells * scene_.layout.mean_cell_m()}, control)),
-        around_(scene_, sources_, tree_.instances[0], covered()) {}
+        fine_(transport_scene(tree_, index_, scene_.set, fine_options(), control)),
+        around_(scene_, sources_, tree_.instances[0], covered()),
+        lookup_(around_, scene_, fine_.layout, fine_.frame.origin_m) {}
 
   LightMap run(std::size_t instance) {
-    add_others_medium();
-    light_by_sky();
-    if (!sources_.sun_extinction_per_m.empty()) light_by_sun();
+    {
+      const StageTimer timer(map_.provenance, "other trees");
+      add_others_medium();
+    }
+    {
+      const StageTimer timer(map_.provenance, "sky");
+      light_by_sky();
+    }
+    if (!sources_.sun_extinction_per_m.empty()) {
+      const StageTimer timer(map_.provenance, "sun");
+      light_by_sun();
+    }
     map_.sunlit_fraction = has_sun() ? sun_.sunlit_fraction : std::vector<float>(index_.element_count());
     for (std::size_t b = 0; b < world_.bands.size(); ++b) add_band(b);
     summarize(tree_, index_, optics_, map_);
@@ -86,6 +95,11 @@ class TreeSolver {
   }
 
  private:
+  BlockerFieldOptions fine_options() const {
+    return {.max_cells = kMostFineCells,
+            .margin_m = kMarginCells * scene_.layout.mean_cell_m(),
+            .frame = tree_frame(tree_)};
+  }
   bool has_sun() const { return !sun_.elements.empty(); }
 
   Vec3 world_point(const Vec3& fine_m) const {
@@ -153,9 +167,20 @@ class TreeSolver {
     for_each_chunk(fine_.set.count(), 1, control_, {}, [&](std::size_t d, std::size_t) {
       std::vector<float> around;
       sweep(fine_.plans[d], fine_.transmittance_of(d),
-            BlockInflow(around_, block.data() + d * around_.count(), fine_, scene_.frame),
+            BlockInflow(lookup_, block.data() + d * around_.count()),
             fine_.part_of(radiance, d), around, control_);
     });
+  }
+
+  // Other trees are no finer than the world's cells: their depth is marched from the middles of those.
+  std::vector<float> others_sun_depth(const Vec3& towards) const {
+    std::vector<float> depth(around_.count());
+    // Small chunks: level rays go around a periodic scene many times.
+    for_each_chunk(depth.size(), 16, control_, {}, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        depth[i] = static_cast<float>(around_.sun_depth_of_others(around_.centre(i), towards));
+    });
+    return depth;
   }
 
   void light_by_sun() {
@@ -163,13 +188,12 @@ class TreeSolver {
     const ExtinctionGrid own(*fine_.field, world_.light.to_sun, control_);
     std::vector<float> depths = own.depth_of_elements(March::kForward, control_);
     const auto& elements = fine_.field->elements();
-    // Small chunks: level rays go around a periodic scene many times.
-    for_each_chunk(depths.size(), scene_.periodic ? 16 : 512, control_, {},
-                   [&](std::size_t begin, std::size_t end) {
-                     for (std::size_t i = begin; i < end; ++i)
-                       depths[i] += static_cast<float>(
-                           around_.sun_depth_of_others(world_point(Vec3(elements[i].centre_m)), towards));
-                   });
+    const std::vector<float> others = others_sun_depth(towards);
+    for_each_chunk(depths.size(), 4096, control_, {}, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        depths[i] = std::min(static_cast<float>(kLargestDepth),
+                             depths[i] + around_.between(others.data(), world_point(Vec3(elements[i].centre_m))));
+    });
     light_elements(sun_, *fine_.field, depths, world_.light.to_sun, control_);
     const auto& wood = fine_.contents.wood;
     sun_.wood = wood_depths(fine_.contents, *fine_.field, world_.light.to_sun);
@@ -177,7 +201,7 @@ class TreeSolver {
       for (std::size_t w = begin; w < end; ++w) {
         const Vec3 centre = fine_centre(wood[w].cell);
         const double depth = own.depth_from_point(centre + fine_.frame.origin_m, March::kForward) +
-                             around_.sun_depth_of_others(world_point(centre), towards);
+                             around_.between(others.data(), world_point(centre));
         sun_.wood[w] *= static_cast<float>(std::exp(-depth));
       }
     });
@@ -234,7 +258,12 @@ class TreeSolver {
                                 std::pow(fine_.layout.mean_cell_m(), 2), leaf,
                                 mean_bark_reflectance(tree_, optics_, b), &background_);
     std::vector<float> radiance = nearest(block);
-    const std::vector<FacePair> given = iterate(leaves, block, beam, radiance);
+    std::vector<FacePair> given;
+    {
+      const StageTimer timer(map_.provenance, "sweeps");
+      given = iterate(leaves, block, beam, radiance);
+    }
+    const StageTimer timer(map_.provenance, "leaf gather");
     for (std::size_t i = 0; i < radiance.size(); ++i)
       radiance[i] = std::max(0.0f, radiance[i] - static_cast<float>(diffuse) * sky_[i]);
     fill_elements(b, beam, diffuse, leaf, gather(fine_, radiance, given, control_));
@@ -298,6 +327,7 @@ class TreeSolver {
   const ForestIndex index_;
   TransportScene fine_;
   const Surroundings around_;
+  const BlockLookup lookup_;
   Background background_;
   DirectSun sun_;
   std::vector<float> sky_;

@@ -105,6 +105,8 @@ int run(int argc, char** argv) {
       slowest = std::max(slowest, took);
       settings.clear();
       for (const auto& [name, value] : map.provenance.settings) settings += ' ' + name + ' ' + value;
+      for (const StageTime& t : map.provenance.times)
+        settings += " | " + t.stage + " cpu_ms " + std::to_string(1e3 * t.cpu_s);
     }
     std::cout << "tree_light_s mean " << wall << " slowest " << slowest << " cpu " << cpu << settings << '\n';
   });
