@@ -64,8 +64,9 @@ struct BlockerFieldOptions {
   std::uint64_t max_cells = 64ull << 20;
   // Only max_cells limits the number of cells.
   bool keep_cell = false;
-  double margin_m = 0;             // around everything, in a scene without a period
-  std::optional<GridFrame> frame = std::nullopt;  // instead of grid_frame() of the forest, which looks at every leaf
+  double margin_m = 0;  // around everything, in a scene without a period
+  std::optional<GridFrame> frame =
+      std::nullopt;  // instead of grid_frame() of the forest, which looks at every leaf
 };
 
 class BlockerField {

@@ -105,7 +105,8 @@ class PartGather {
     for (std::size_t j = 0; j < kLanes; ++j) {
       const bool on_front = cosine[j] >= 0.0f;
       const float own = corners.own_weight * own_part(depth[j], lanes_.step_cells[j]);
-      const float near = without_own(between.near[j], own_cell.near[j], own, on_front ? sent_back : sent_front);
+      const float near =
+          without_own(between.near[j], own_cell.near[j], own, on_front ? sent_back : sent_front);
       const float far = without_own(between.far[j], own_cell.far[j], own, on_front ? sent_front : sent_back);
       weight[j] = lanes_.solid_angle_sr[j] * cover[j];
       front[j] = weight[j] * (on_front ? near : far);

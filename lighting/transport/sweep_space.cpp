@@ -40,8 +40,8 @@ void plan_sweeps(SweepSpace& space) {
     space.plans.push_back(plan_sweep(space.layout, space.frame.field_direction(w)));
 }
 
-void sweep_even(const SweepPlan& plan, std::span<const float> half_step_transmittance, const Inflow& inflow,
-                std::span<float> radiance, const RunControl& control) {
+std::vector<float> sweep_even(const SweepPlan& plan, std::span<const float> half_step_transmittance,
+                              const Inflow& inflow, std::span<float> radiance, const RunControl& control) {
   const bool around = plan.wraps[static_cast<std::size_t>(plan.axis)];
   std::vector<float> leaving, before;
   for (int round = 0; round < (around ? kMostWraps : 1); ++round) {
@@ -50,6 +50,7 @@ void sweep_even(const SweepPlan& plan, std::span<const float> half_step_transmit
     sweep(plan, half_step_transmittance, inflow, radiance, leaving, control);
     if (largest_change(leaving, before) <= kSettled) break;
   }
+  return leaving;
 }
 
 std::vector<float> ground_irradiance(const SweepSpace& space, const SkySectors& sectors,

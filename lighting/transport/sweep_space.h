@@ -43,9 +43,10 @@ class EvenInflow final : public Inflow {
   float radiance_;
 };
 
-// Radiance of an even sky that reaches each cell without meeting anything, along one direction.
-void sweep_even(const SweepPlan& plan, std::span<const float> half_step_transmittance, const Inflow& inflow,
-                std::span<float> radiance, const RunControl& control);
+// Radiance from outside that reaches each cell without meeting anything, along one direction. Returns what
+// goes around where the axis repeats, see sweep().
+std::vector<float> sweep_even(const SweepPlan& plan, std::span<const float> half_step_transmittance,
+                              const Inflow& inflow, std::span<float> radiance, const RunControl& control);
 
 // Irradiance of every ground cell by `radiance` [direction][cell]; where the way to the outside misses the
 // grid, `outside` per direction.

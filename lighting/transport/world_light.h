@@ -33,7 +33,7 @@ namespace sunfleck {
 struct WorldOptions {
   // ---- part of the preparation
   int directions = 26;  // 8, 14 or 26; in a periodic scene as for the grid method
-  // Edge of a world cell; 0: a sixth of the mean crown width, at least 4 leaf sides, at most 0.5 m; coarser,
+  // Edge of a world cell; 0: a sixth of the mean crown width, at least 2 leaf sides, at most 0.5 m; coarser,
   // with a note, where the cells would not fit the memory limit. A size given here is kept or refused.
   double cell_m = 0;
   std::uint64_t memory_limit_bytes = 2ull << 30;  // of the cells, with two bands of light

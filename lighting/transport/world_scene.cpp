@@ -11,7 +11,7 @@ namespace sunfleck::transport {
 
 namespace {
 
-constexpr double kLargestCell = 0.5, kCellsPerCrown = 6, kFewestSidesOfWorldCell = 4;
+constexpr double kLargestCell = 0.5, kCellsPerCrown = 6, kFewestSidesOfWorldCell = 2;
 constexpr int kGroundCellsPerSide = 256;
 constexpr std::size_t kEntriesPerRange = 4096, kCellsPerRange = 16384, kInstancesPerChunk = 16;
 

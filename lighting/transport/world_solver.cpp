@@ -17,6 +17,11 @@ namespace {
 
 constexpr double kSlowest = 0.9995;       // orders that shrink more slowly give no tail to go by
 constexpr double kChangePerError = 0.25;  // the prediction's error is some times its last change
+// The tail is added in the shape of all orders, which it has not quite: it may be this times the tolerance.
+constexpr double kLongestTail = 5.0;
+
+// Depth over half a cell beyond which its middle says nothing of its mean.
+constexpr float kThickest = 3.0f;
 
 // Extinction along any direction, for the sun.
 std::vector<float> extinction_towards_sun(const WorldScene& scene, const Vec3& to_sun,
@@ -55,6 +60,15 @@ void add_sun(const WorldScene& scene, const Forest& forest, const Vec3& to_sun, 
                                                        : 1.0f;
   });
   sweep_even(plan, pass, EvenInflow(1.0), sources.sun_transmittance, control);
+  // From the middle of a cell to its mean along the ray: what a cell takes is then what its slab lets not
+  // pass.
+  for_each_chunk(scene.cells(), 65536, control, {}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = begin; c < end; ++c) {
+      const float x = std::min(kThickest, -half_step * sources.sun_extinction_per_m[c]);
+      if (x > 1e-3f)
+        sources.sun_transmittance[c] = std::min(1.0f, sources.sun_transmittance[c] * std::sinh(x) / x);
+    }
+  });
   for_each_chunk(scene.ground->count(), 16, control, {}, [&](std::size_t begin, std::size_t end) {
     for (std::size_t g = begin; g < end; ++g) {
       const Vec3 p = scene.frame.field_from_world(scene.ground->world_point(g));
@@ -109,7 +123,8 @@ class WorldSolver {
       before_order = order;
       const bool steady =
           std::abs(predicted - before) <= kChangePerError * options.convergence * std::abs(predicted);
-      band.converged = !(power > 0.0) || (band.iterations >= 2 && steady);
+      const bool short_tail = tail <= kLongestTail * options.convergence * power;
+      band.converged = !(power > 0.0) || (band.iterations >= 2 && steady && short_tail);
       const bool last = band.converged || band.iterations >= options.max_iterations;
       if (last && power > 0.0) add_tail(predicted / power, ground);
       sweep_all(ground);
@@ -124,6 +139,9 @@ class WorldSolver {
     radiance_.assign(scene_.set.count() * scene_.cells(), 0.0f);
     if (sources_.sky.empty() || !(strength_.diffuse_horizontal_w_m2 > 0.0)) return;
     const auto diffuse = static_cast<float>(strength_.diffuse_horizontal_w_m2);
+    around_ = sources_.sky_around;
+    for (auto& direction : around_)
+      for (float& radiance : direction) radiance *= diffuse;
     for_each_chunk(radiance_.size(), 1 << 18, control_, {}, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) radiance_[i] = diffuse * sources_.sky[i];
     });
@@ -299,10 +317,12 @@ WorldSources world_sources(const WorldScene& scene, const Forest& forest, const 
   sources.sectors = sky_sectors(scene.set, light.sky, forest.terrain.normal());
   if (std::ranges::any_of(light.bands, [](const BandLight& b) { return b.diffuse_horizontal_w_m2 > 0; })) {
     sources.sky.assign(scene.set.count() * scene.cells(), 0.0f);
+    sources.sky_around.resize(scene.set.count());
     for_each_chunk(scene.set.count(), 1, control, {}, [&](std::size_t d, std::size_t) {
       if (sources.sectors.sky_radiance[d] > 0.0)
-        sweep_even(scene.plans[d], scene.transmittance_of(d), EvenInflow(sources.sectors.sky_radiance[d]),
-                   scene.part_of(sources.sky, d), control);
+        sources.sky_around[d] =
+            sweep_even(scene.plans[d], scene.transmittance_of(d), EvenInflow(sources.sectors.sky_radiance[d]),
+                       scene.part_of(sources.sky, d), control);
     });
   }
   const bool beam =

@@ -9,12 +9,13 @@ namespace sunfleck::transport {
 // What depends on the sun's direction and the shape of the sky, for strengths of 1.
 struct WorldSources {
   SkySectors sectors;
-  std::vector<float> sky;                   // [direction][cell]; empty: no diffuse light
-  std::vector<float> sun_cover;             // of a kind: projected area over area
-  std::vector<float> sun_extinction_per_m;  // empty: no sun
-  std::vector<float> sun_transmittance;     // to the middle of every cell
-  std::vector<float> sun_ground;            // irradiance of ground cells
-  double open_ground = 0;                   // of the open ground by the sun
+  std::vector<float> sky;                      // [direction][cell]; empty: no diffuse light
+  std::vector<std::vector<float>> sky_around;  // per direction, what goes around a repeating grid
+  std::vector<float> sun_cover;                // of a kind: projected area over area
+  std::vector<float> sun_extinction_per_m;     // empty: no sun
+  std::vector<float> sun_transmittance;        // to every cell, mean along the ray in it
+  std::vector<float> sun_ground;               // irradiance of ground cells
+  double open_ground = 0;                      // of the open ground by the sun
 };
 WorldSources world_sources(const WorldScene& scene, const Forest& forest, const Illumination& light,
                            const RunControl& control);

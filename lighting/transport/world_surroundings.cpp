@@ -131,8 +131,7 @@ std::vector<BlockLookup::Part> BlockLookup::along(int axis, const Surroundings& 
   for (int i = -1; i <= fine.cells[a]; ++i) {
     const double p =
         fine.lo_m[axis] + (i + 0.5) * fine.cell_m[axis] + origin_m[axis] - scene.frame.origin_m[axis];
-    const double at =
-        (p - scene.layout.lo_m[axis]) / scene.layout.cell_m[axis] - 0.5 - around.lo()[a];
+    const double at = (p - scene.layout.lo_m[axis]) / scene.layout.cell_m[axis] - 0.5 - around.lo()[a];
     const double low = std::clamp(std::floor(at), 0.0, static_cast<double>(around.size()[a] - 2));
     parts.push_back({static_cast<std::size_t>(low) * stride,
                      static_cast<float>(std::clamp(at - low, 0.0, 1.0)),

@@ -42,8 +42,9 @@ class Surroundings {
   std::vector<float> own_sun_extinction_per_m_;
 };
 
-// between() for the cells of a finer grid, prepared for many looks. The finer grid's axes are the world's; its
-// frame starts at `origin_m` of the world. A point's height in the world grid's frame may depend on its place.
+// between() for the cells of a finer grid, prepared for many looks. The finer grid's axes are the world's;
+// its frame starts at `origin_m` of the world. A point's height in the world grid's frame may depend on its
+// place.
 class BlockLookup {
  public:
   BlockLookup(const Surroundings& around, const WorldScene& scene, const GridLayout& fine,

@@ -167,8 +167,8 @@ class TreeSolver {
     for_each_chunk(fine_.set.count(), 1, control_, {}, [&](std::size_t d, std::size_t) {
       std::vector<float> around;
       sweep(fine_.plans[d], fine_.transmittance_of(d),
-            BlockInflow(lookup_, block.data() + d * around_.count()),
-            fine_.part_of(radiance, d), around, control_);
+            BlockInflow(lookup_, block.data() + d * around_.count()), fine_.part_of(radiance, d), around,
+            control_);
     });
   }
 
@@ -191,8 +191,9 @@ class TreeSolver {
     const std::vector<float> others = others_sun_depth(towards);
     for_each_chunk(depths.size(), 4096, control_, {}, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i)
-        depths[i] = std::min(static_cast<float>(kLargestDepth),
-                             depths[i] + around_.between(others.data(), world_point(Vec3(elements[i].centre_m))));
+        depths[i] =
+            std::min(static_cast<float>(kLargestDepth),
+                     depths[i] + around_.between(others.data(), world_point(Vec3(elements[i].centre_m))));
     });
     light_elements(sun_, *fine_.field, depths, world_.light.to_sun, control_);
     const auto& wood = fine_.contents.wood;
