@@ -42,8 +42,23 @@ void signed_cover(const AngleSample& sample, int azimuth, const DirectionSet& se
 
 struct Sums {
   std::array<std::array<double, kBothLanes>, kBothLanes> source{};
-  std::array<double, kBothLanes> absorbed{}, irradiance{}, emitted{}, sun_source{};
-  double sun_absorbed = 0, sun_irradiance = 0, sun_emitted = 0, sun_cover = 0;
+  std::array<double, kBothLanes> absorbed{}, irradiance{}, sun_source{};
+  double sun_absorbed = 0, sun_irradiance = 0, sun_cover = 0;
+
+  // Into what the sum and the difference of a pair of directions scatter, where that is all.
+  void split(KindKernel& k) const {
+    double largest = 0.0, unlike = 0.0;
+    for (std::size_t i = 0; i < kLanes; ++i)
+      for (std::size_t j = 0; j < kLanes; ++j) {
+        const auto &near = source[i], &far = source[i + kLanes];
+        largest = std::max(largest, near[j] + near[j + kLanes]);
+        unlike = std::max({unlike, std::abs(near[j] - far[j + kLanes]), std::abs(near[j + kLanes] - far[j])});
+        if (i >= kMostHalf) continue;
+        k.even[i][j] = static_cast<float>(0.5 * (near[j] + near[j + kLanes]));
+        k.odd[i][j] = static_cast<float>(0.5 * (near[j] - near[j + kLanes]));
+      }
+    k.faces_alike = unlike <= 1e-6 * largest;
+  }
 
   KindKernel kernel() const {
     KindKernel k;
@@ -51,13 +66,12 @@ struct Sums {
       for (std::size_t j = 0; j < kBothLanes; ++j) k.source[i][j] = static_cast<float>(source[i][j]);
       k.absorbed[i] = static_cast<float>(absorbed[i]);
       k.irradiance[i] = static_cast<float>(irradiance[i]);
-      k.emitted[i] = static_cast<float>(emitted[i]);
       k.sun_source[i] = static_cast<float>(sun_source[i]);
     }
     k.sun_absorbed = static_cast<float>(sun_absorbed);
     k.sun_irradiance = static_cast<float>(sun_irradiance);
-    k.sun_emitted = static_cast<float>(sun_emitted);
     k.sun_cover = static_cast<float>(sun_cover);
+    split(k);
     return k;
   }
 };
@@ -83,7 +97,6 @@ class KernelMaker {
         give_off(cosine, light, passed[face], sums.source[k + far * kLanes]);
         sums.absorbed[k + far * kLanes] += light * kept[face];
         sums.irradiance[k + far * kLanes] += light;
-        sums.emitted[k + far * kLanes] += light * (1.0 - kept[face]);
       }
     }
     const double sun = glm::dot(turned(sample.axis, azimuth), to_sun_);
@@ -110,7 +123,6 @@ class KernelMaker {
         glow(cover, leaf.albedo() * light, sums.source[k + far * kLanes]);
         sums.absorbed[k + far * kLanes] += 2.0 * light * (1.0 - leaf.albedo());
         sums.irradiance[k + far * kLanes] += 2.0 * light;
-        sums.emitted[k + far * kLanes] += 2.0 * light * leaf.albedo();
       }
     }
     const double seen = own_transmittance(shoot_element(sample, turned(sample.axis, azimuth)), to_sun_);
@@ -132,13 +144,11 @@ class KernelMaker {
       for (const bool far : {false, true}) {
         glow(cover, kPi * bark * taken / (2.0 * norm), sums.source[k + far * kLanes]);
         sums.absorbed[k + far * kLanes] += (1.0 - bark) * taken;
-        sums.emitted[k + far * kLanes] += bark * taken;
       }
     }
     const double taken = share * wood_projection(wood, axis, to_sun_) / wood.area_m2;
     glow(cover, kPi * bark * taken / (2.0 * norm), sums.sun_source);
     sums.sun_absorbed += (1.0 - bark) * taken;
-    sums.sun_emitted += bark * taken;
     sums.sun_cover += taken;
   }
 
@@ -163,7 +173,6 @@ class KernelMaker {
   static void add_sun(double light, double kept, double cover, Sums& sums) {
     sums.sun_absorbed += light * kept;
     sums.sun_irradiance += light;
-    sums.sun_emitted += light * (1.0 - kept);
     sums.sun_cover += cover;
   }
 

@@ -24,14 +24,18 @@ inline std::uint32_t wood_kind(std::size_t prototype) { return leaf_kind(prototy
 Lanes leaf_cover(const WorldPrototype& prototype, const DirectionSet& set);
 Lanes wood_cover(const WorldPrototype& prototype, const DirectionSet& set);
 
+inline constexpr std::size_t kMostHalf = 13;  // directions in half of the largest set
+
 // Everything per effective area of a kind.
 struct alignas(64) KindKernel {
+  // Where both faces of all leaves scatter alike: half the kernels of sum and difference of a pair.
+  bool faces_alike = false;
+  alignas(64) std::array<Lanes, kMostHalf> even{}, odd{};
   alignas(64) std::array<BothLanes, kBothLanes> source{};  // [from][to], of radiance
   alignas(64) BothLanes absorbed{}, irradiance{};          // W m-2 per radiance; irradiance: front + back
-  alignas(64) BothLanes emitted{};
   // The same for a beam of 1 W m-2.
   alignas(64) BothLanes sun_source{};
-  float sun_absorbed = 0, sun_irradiance = 0, sun_emitted = 0, sun_cover = 0;
+  float sun_absorbed = 0, sun_irradiance = 0, sun_cover = 0;
 };
 
 // By kind, for one band. `to_sun`: unit. `optics` of the forest the prototypes are from.

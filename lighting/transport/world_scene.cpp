@@ -229,11 +229,14 @@ InstanceContent instance_content(const WorldScene& scene, const Instance& instan
   const float area_scale = instance.scale * instance.scale;
   InstanceContent content;
   if (prototype.cells.empty()) return content;
+  const Vec3 foot = scene.frame.unwrapped_from_world(instance.position_m);
+  const double scale = instance.scale, yaw = instance.yaw_rad, cosine = std::cos(yaw), sine = std::sin(yaw);
   std::vector<std::array<int, 3>> place(prototype.cells.size());
   std::array<int, 3> hi{};
   for (std::size_t i = 0; i < place.size(); ++i) {
-    const Vec3 p =
-        scene.frame.unwrapped_from_world(world_from_tree(instance, Vec3(prototype.cells[i].centre_m)));
+    const Vec3 c = scale * Vec3(prototype.cells[i].centre_m);
+    const Vec2 step(cosine * c.x - sine * c.y, sine * c.x + cosine * c.y);
+    const Vec3 p = foot + Vec3(step, c.z - glm::dot(scene.frame.shear, step));
     for (std::size_t a = 0; a < 3; ++a) {
       const auto axis = static_cast<int>(a);
       int cell = static_cast<int>(std::floor((p[axis] - layout.lo_m[axis]) / layout.cell_m[axis]));

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "lighting/depth/grid_march.h"
+#include "lighting/transport/world_scatter.h"
 #include "sim/base/parallel.h"
 
 namespace sunfleck::transport {
@@ -155,6 +156,7 @@ class WorldSolver {
   // Radiance to source functions, in place. Returns the power given back.
   double scatter() {
     const auto beam = static_cast<float>(strength_.beam_normal_w_m2);
+    const ScatterCell scatter_cell = scatter_cell_best();
     std::vector<double> power(scene_.ranges.size(), 0.0);
     for_each_chunk(scene_.ranges.size(), 1, control_, {}, [&](std::size_t r, std::size_t) {
       const std::size_t half = scene_.set.half(), cells = scene_.cells();
@@ -170,11 +172,14 @@ class WorldSolver {
         alignas(64) Lanes cover{};
         for (std::uint32_t e = begin; e < end; ++e) {
           const WorldEntry& entry = scene_.entries[e];
-          const KindKernel& kernel = kernels_.kinds[entry.kind];
-          add_source(kernel, entry.area_m2, light, sun, source);
           for (std::size_t j = 0; j < kLanes; ++j) cover[j] += entry.area_m2 * scene_.cover[entry.kind][j];
-          power[r] += emitted_power(kernel, entry.area_m2, light, sun);
         }
+        scatter_cell(std::span(scene_.entries).subspan(begin, end - begin), kernels_.kinds.data(), light, sun,
+                     source);
+        float sent = 0.0f;
+        for (std::size_t j = 0; j < kLanes; ++j)
+          sent += scene_.lanes.solid_angle_sr[j] * (source[j] + source[kLanes + j]);
+        power[r] += sent;
         for (std::size_t j = 0; j < half; ++j) {
           const float per_cover = cover[j] > 0.0f ? 1.0f / cover[j] : 0.0f;
           radiance_[j * cells + c] = source[j] * per_cover;
@@ -352,19 +357,6 @@ float WorldInflow::radiance(const std::array<int, 3>& cell) const {
                                   static_cast<std::size_t>(cell[0])];
   return sky_ + share_ * (hit == GroundMap::kOpen ? open_radiance_
                                                   : ground_radiance_[static_cast<std::size_t>(hit)]);
-}
-
-void add_source(const KindKernel& kernel, float area_m2, const BothLanes& radiance, float sun_w_m2,
-                BothLanes& source) {
-  alignas(64) BothLanes sum;
-  for (std::size_t j = 0; j < kBothLanes; ++j) sum[j] = sun_w_m2 * kernel.sun_source[j];
-  for (std::size_t k = 0; k < kBothLanes; ++k)
-    for (std::size_t j = 0; j < kBothLanes; ++j) sum[j] += radiance[k] * kernel.source[k][j];
-  for (std::size_t j = 0; j < kBothLanes; ++j) source[j] += area_m2 * sum[j];
-}
-
-double emitted_power(const KindKernel& kernel, float area_m2, const BothLanes& radiance, float sun_w_m2) {
-  return static_cast<double>(area_m2) * (dot(kernel.emitted, radiance) + sun_w_m2 * kernel.sun_emitted);
 }
 
 WorldGround world_ground(const WorldScene& scene, const WorldSources& sources, const BandLight& strength,

@@ -35,11 +35,6 @@ class WorldInflow final : public Inflow {
   float sky_, share_, open_radiance_;
 };
 
-// Source of radiance that the content of a cell gives to every direction, and its power, for the light in it.
-void add_source(const KindKernel& kernel, float area_m2, const BothLanes& radiance, float sun_w_m2,
-                BothLanes& source);
-double emitted_power(const KindKernel& kernel, float area_m2, const BothLanes& radiance, float sun_w_m2);
-
 // Irradiance of every ground cell, W m-2, and of the open ground.
 struct WorldGround {
   std::vector<float> irradiance;

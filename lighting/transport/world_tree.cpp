@@ -8,6 +8,7 @@
 #include "lighting/transport/element_gather.h"
 #include "lighting/transport/transport_scene.h"
 #include "lighting/transport/world_light.h"
+#include "lighting/transport/world_scatter.h"
 #include "lighting/transport/world_surroundings.h"
 #include "sim/base/contract.h"
 #include "sim/base/error.h"
@@ -54,6 +55,37 @@ class BlockInflow final : public Inflow {
  private:
   const BlockLookup& lookup_;
   const float* radiance_;
+};
+
+// The power a tree gives back, from one look at the light to the next, and where it is going.
+class TreeSeries {
+ public:
+  void add(double power) {
+    const double change = power - power_;
+    double rest = 0.0;
+    if (count_ >= 2 && std::abs(change) < kSteadiest * std::abs(change_)) {
+      const double ratio = change / change_;
+      rest = change * ratio / (1.0 - ratio);
+    }
+    moved_ = std::abs(power + rest - predicted_);
+    predicted_ = power + rest;
+    change_ = change;
+    power_ = power;
+    ++count_;
+  }
+  bool is_settled(double convergence) const {
+    if (!(power_ > 0.0)) return true;
+    const double rest = std::abs(predicted_ - power_);
+    return count_ >= 3 && moved_ <= 0.5 * convergence * power_ && rest <= kLongestRest * convergence * power_;
+  }
+  // What all sources are still to grow by.
+  float gain() const { return power_ > 0.0 ? static_cast<float>(predicted_ / power_) : 1.0f; }
+
+ private:
+  static constexpr double kSteadiest = 0.9;    // changes that shrink more slowly tell no end
+  static constexpr double kLongestRest = 5.0;  // of the tolerance: the rest has not quite the shape of all
+  int count_ = 0;
+  double power_ = 0, change_ = 0, predicted_ = 0, moved_ = 0;
 };
 
 class TreeSolver {
@@ -214,6 +246,7 @@ class TreeSolver {
     const double fine_m = fine_.layout.mean_cell_m();
     const auto per_volume = static_cast<float>(fine_m / std::pow(scene_.layout.mean_cell_m(), 3));
     const auto beam = static_cast<float>(world_.light.bands[b].beam_normal_w_m2);
+    const ScatterCell scatter_cell = scatter_cell_best();
     background_.source_near.assign(count, {});
     background_.source_far.assign(count, {});
     for (std::size_t i = 0; i < count; ++i) {
@@ -226,11 +259,10 @@ class TreeSolver {
       }
       const float sun =
           sources_.sun_transmittance.empty() ? 0.0f : beam * sources_.sun_transmittance[*around_.cells()[i]];
-      for (const WorldEntry& e : around_.others()[i])
-        add_source(band.kernels->kinds[e.kind], e.area_m2 * per_volume, light, sun, source);
+      scatter_cell(around_.others()[i], band.kernels->kinds.data(), light, sun, source);
       for (std::size_t j = 0; j < half; ++j) {
-        background_.source_near[i][j] = source[j];
-        background_.source_far[i][j] = source[kLanes + j];
+        background_.source_near[i][j] = per_volume * source[j];
+        background_.source_far[i][j] = per_volume * source[kLanes + j];
       }
     }
   }
@@ -276,16 +308,22 @@ class TreeSolver {
     DirectLight direct;
     if (beam > 0.0) direct = {sun_.elements, sun_.wood, beam};
     Orders orders;
-    double before = 0.0;
+    TreeSeries series;
     for (int i = 0; i < options_.max_iterations; ++i) {
-      const double power = leaves.next_order(radiance, 1.0, direct, orders, radiance, control_);
+      series.add(leaves.next_order(radiance, 1.0, direct, orders, radiance, control_));
+      const bool last = series.is_settled(options_.convergence);
+      if (last) scale(series.gain(), orders, radiance);
       sweep_all(block, radiance);
       ++sweeps_;
-      if (i > 0 && std::abs(power - before) <= 0.5 * options_.convergence * power) break;
-      before = power;
+      if (last) break;
     }
     orders.total = orders.last;
     return leaves.total_radiosity(orders, 0.0, control_);
+  }
+
+  void scale(float gain, Orders& orders, std::vector<float>& source) const {
+    for (float& q : source) q *= gain;
+    for (FacePair& light : orders.last) light = {gain * light.front, gain * light.back};
   }
 
   void fill_elements(std::size_t b, double beam, double diffuse, const std::vector<LeafBand>& leaf,
