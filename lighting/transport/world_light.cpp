@@ -32,7 +32,7 @@ void check_world_options(const WorldOptions& o) {
                   "a length in metres, 0.3 to 1 is usual, or 0 to have it chosen");
   if (o.memory_limit_bytes < (1ull << 20))
     throw_invalid("world.memory_limit_bytes", std::to_string(o.memory_limit_bytes) + " bytes hold no grid",
-                  "at least 1048576; 2147483648 is usual");
+                  "at least 1048576; 1073741824 is usual");
   if (!(o.convergence > 0.0 && o.convergence <= 0.5))
     throw_invalid("world.convergence", number(o.convergence) + " is out of range",
                   "more than 0, at most 0.5; 0.002 is usual");

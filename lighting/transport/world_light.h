@@ -36,7 +36,7 @@ struct WorldOptions {
   // Edge of a world cell; 0: a sixth of the mean crown width, at least 2 leaf sides, at most 0.5 m; coarser,
   // with a note, where the cells would not fit the memory limit. A size given here is kept or refused.
   double cell_m = 0;
-  std::uint64_t memory_limit_bytes = 2ull << 30;  // of the cells, with two bands of light
+  std::uint64_t memory_limit_bytes = 1ull << 30;  // of the cells, with two bands of light
   // ---- part of each answer
   double convergence = 2e-3;  // of scattered power, relative, in the world and in each tree
   int max_iterations = 60;

@@ -47,9 +47,9 @@ typedef float Wide __attribute__((vector_size(sizeof(Lanes))));
   far += entry.area_m2 * sum_far;
 }
 
-[[gnu::always_inline]] inline void scatter_cell(std::span<const WorldEntry> entries, const KindKernel* kernels,
-                                                const BothLanes& radiance, float sun_w_m2,
-                                                BothLanes& source) {
+[[gnu::always_inline]] inline void scatter_cell(std::span<const WorldEntry> entries,
+                                                const KindKernel* kernels, const BothLanes& radiance,
+                                                float sun_w_m2, BothLanes& source) {
   Lanes sum, difference;
   for (std::size_t k = 0; k < kLanes; ++k) {
     sum[k] = radiance[k] + radiance[kLanes + k];
@@ -69,8 +69,8 @@ typedef float Wide __attribute__((vector_size(sizeof(Lanes))));
   std::memcpy(source.data() + kLanes, &far, sizeof far);
 }
 
-void scatter_cell_v3(std::span<const WorldEntry> entries, const KindKernel* kernels, const BothLanes& radiance,
-                     float sun_w_m2, BothLanes& source) {
+void scatter_cell_v3(std::span<const WorldEntry> entries, const KindKernel* kernels,
+                     const BothLanes& radiance, float sun_w_m2, BothLanes& source) {
   scatter_cell(entries, kernels, radiance, sun_w_m2, source);
 }
 

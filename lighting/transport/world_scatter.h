@@ -9,8 +9,8 @@
 
 namespace sunfleck::transport {
 
-// Adds to `source` what a cell's entries give off towards every direction for the radiance in it and the sun's
-// irradiance on a plane that faces it.
+// Adds to `source` what a cell's entries give off towards every direction for the radiance in it and the
+// sun's irradiance on a plane that faces it.
 using ScatterCell = void (*)(std::span<const WorldEntry> entries, const KindKernel* kernels,
                              const BothLanes& radiance, float sun_w_m2, BothLanes& source);
 

@@ -19,7 +19,7 @@ namespace {
 constexpr double kSlowest = 0.9995;       // orders that shrink more slowly give no tail to go by
 constexpr double kChangePerError = 0.25;  // the prediction's error is some times its last change
 // The tail is added in the shape of all orders, which it has not quite: it may be this times the tolerance.
-constexpr double kLongestTail = 5.0;
+constexpr double kLongestTail = 10.0;
 
 // Depth over half a cell beyond which its middle says nothing of its mean.
 constexpr float kThickest = 3.0f;
@@ -162,10 +162,7 @@ class WorldSolver {
       const std::size_t half = scene_.set.half(), cells = scene_.cells();
       for (std::uint32_t c = scene_.ranges[r].begin; c < scene_.ranges[r].end; ++c) {
         const std::uint32_t begin = scene_.first_entry[c], end = scene_.first_entry[c + 1];
-        if (begin == end) {
-          for (std::size_t d = 0; d < 2 * half; ++d) radiance_[d * cells + c] = 0.0f;
-          continue;
-        }
+        if (begin == end) continue;  // all light passes, whatever the source function is
         const BothLanes light = radiance_in(scene_, radiance_, c);
         const float sun = sources_.sun_transmittance.empty() ? 0.0f : beam * sources_.sun_transmittance[c];
         alignas(64) BothLanes source{};

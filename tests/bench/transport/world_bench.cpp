@@ -1,6 +1,6 @@
 // Time of the world grid: thousands of instances of a few prototypes, sky, sun and all bounces, then single
 // trees. Before anything is timed the energy of a periodic stand must close.
-//   world_bench [instances] [leaves per prototype] [cell_m] [directions] [threads]
+//   world_bench [instances] [leaves per prototype] [cell_m] [directions] [threads] [GiB]
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
@@ -56,7 +56,7 @@ int run(int argc, char** argv) {
   WorldOptions options;
   options.cell_m = number(3, 0);
   options.directions = static_cast<int>(number(4, 26));
-  options.memory_limit_bytes = static_cast<std::uint64_t>(number(6, 2) * (1 << 30));
+  options.memory_limit_bytes = static_cast<std::uint64_t>(number(6, 1) * (1 << 30));
   Illumination light;
   light.to_sun = glm::normalize(Vec3(0.45, 0.25, 0.86));
   light.bands = {{900, 100}};
