@@ -10,7 +10,7 @@
 // and all bounces are swept through that grid.
 //
 // One tree. tree_light() puts the tree's own leaves into a fine grid of its own (2 to 4 leaf sides, the yaw
-// and every leaf angle exact) that reaches 1.5 world cells beyond it on all sides. Light enters at its border
+// and every leaf angle exact) that reaches a world cell beyond it on all sides. Light enters at its border
 // as the world grid has it there: a ray that is about to enter has not yet met the tree, so its own shade is
 // not in that light but by way of others that it lights or shades, where it belongs. Inside the border, other
 // trees are what the world grid's cells hold less the tree's own part of them, computed by the same sums:

@@ -21,7 +21,7 @@ namespace {
 
 using namespace transport;
 
-constexpr double kMarginCells = 1.5;  // of the world, between the tree and the fine grid's border
+constexpr double kMarginCells = 1.0;  // of the world, between the tree and the fine grid's border
 constexpr std::uint64_t kMostFineCells = 4 << 20;  // of one tree
 
 // The forest with one instance and its prototype alone; numbers of prototypes stay.
@@ -197,6 +197,9 @@ class TreeSolver {
 
   void sweep_all(const std::vector<float>& block, std::vector<float>& radiance) {
     for_each_chunk(fine_.set.count(), 1, control_, {}, [&](std::size_t d, std::size_t) {
+      const auto light = std::span(block).subspan(d * around_.count(), around_.count());
+      const bool dark = &radiance == &sky_ && std::ranges::all_of(light, [](float r) { return r == 0.0f; });
+      if (dark) return;
       std::vector<float> around;
       sweep(fine_.plans[d], fine_.transmittance_of(d),
             BlockInflow(lookup_, block.data() + d * around_.count()), fine_.part_of(radiance, d), around,
