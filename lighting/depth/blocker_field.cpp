@@ -32,6 +32,12 @@ double mean_silhouette(const FieldElement& e) {
   return 0.5 * kPi * radius * (length + radius);  // a quarter of the surface, caps included
 }
 
+Box widened(Box box, double margin_m) {
+  box.lo -= Vec3(margin_m);
+  box.hi += Vec3(margin_m);
+  return box;
+}
+
 Vec3 unit_or_up(const Vec3& v) {
   const double length = glm::length(v);
   return length > 0.0 ? v / length : Vec3(0, 0, 1);
@@ -44,6 +50,8 @@ double own_transmittance(const FieldElement& e, const Vec3& direction) {
   const double silhouette = cylinder_silhouette(e, direction);
   return silhouette > 0.0 ? mean_decay(0.5 * e.area_m2 / silhouette) : 0.0;
 }
+
+double element_side_m(const FieldElement& e) { return std::sqrt(mean_silhouette(e)); }
 
 double projected_area_m2(const FieldElement& e, const Vec3& direction) {
   if (!e.is_shoot()) return e.area_m2 * std::abs(glm::dot(Vec3(e.axis), direction));
@@ -62,15 +70,8 @@ class BlockerFieldBuilder {
   BlockerFieldBuilder(BlockerField& field, const Forest& forest, const RunControl& control)
       : field_(field), forest_(forest), index_(forest), control_(control) {}
 
-  void choose_frame() {
-    const Vec3 n = forest_.terrain.normal();
-    field_.ground_normal_ = n;
-    field_.origin_m_ = forest_bounds(forest_).centre();
-    if (!forest_.period) return;
-    field_.period_m_ = forest_.period->size_m;
-    field_.origin_m_.x = forest_.period->origin_m.x;
-    field_.origin_m_.y = forest_.period->origin_m.y;
-    field_.shear_ = Vec2(-n.x / n.z, -n.y / n.z);
+  void choose_frame(const BlockerFieldOptions& options) {
+    field_.frame_ = options.frame ? *options.frame : grid_frame(forest_);
   }
 
   void flatten_elements() {
@@ -87,19 +88,16 @@ class BlockerFieldBuilder {
     for (const FieldElement& e : field_.elements_) {
       box.include(Vec3(e.centre_m));
       area += e.area_m2;
-      weighted_side += e.area_m2 * std::sqrt(mean_silhouette(e));
+      weighted_side += e.area_m2 * element_side_m(e);
     }
     const double extent = std::max({box.size().x, box.size().y, box.size().z});
     field_.mean_side_m_ = area > 0.0 ? weighted_side / area : (extent > 0.0 ? extent / 64.0 : 1.0);
     const double cell = options.cell_m > 0.0 ? options.cell_m : leaf_cell_size(extent, field_.mean_side_m_);
-    std::optional<Box> period;
-    if (field_.period_m_) {
-      period.emplace();
-      period->include(Vec3(0.0));
-      period->include(Vec3(field_.period_m_->x, field_.period_m_->y, 0.0));
-    }
     const std::uint64_t worthwhile = std::max<std::uint64_t>(8ull << 20, 512 * field_.elements_.size());
-    field_.layout_ = fit_grid(box, period, cell, std::min(options.max_cells, worthwhile));
+    const std::uint64_t most =
+        options.keep_cell ? options.max_cells : std::min(options.max_cells, worthwhile);
+    const Box wide = options.margin_m > 0.0 ? widened(box, options.margin_m) : box;
+    field_.layout_ = fit_grid(wide, field_.frame_.period_box(), cell, most);
   }
 
   void place_elements() {
@@ -225,30 +223,12 @@ class BlockerFieldBuilder {
 BlockerField::BlockerField(const Forest& forest, const BlockerFieldOptions& options,
                            const RunControl& control) {
   BlockerFieldBuilder builder(*this, forest, control);
-  builder.choose_frame();
+  builder.choose_frame(options);
   builder.flatten_elements();
   SUNFLECK_EXPECTS(!elements_.empty());
   builder.choose_grid(options);
   builder.place_elements();
   builder.place_wood();
-}
-
-Vec3 BlockerField::field_from_world(const Vec3& point_m) const {
-  Vec3 p = point_m - origin_m_;
-  p.z -= shear_.x * p.x + shear_.y * p.y;
-  if (period_m_) {
-    p.x -= period_m_->x * std::floor(p.x / period_m_->x);
-    p.y -= period_m_->y * std::floor(p.y / period_m_->y);
-  }
-  return p;
-}
-
-Vec3 BlockerField::field_direction(const Vec3& direction) const {
-  return {direction.x, direction.y, direction.z - shear_.x * direction.x - shear_.y * direction.y};
-}
-
-bool BlockerField::ends_on_ground(const Vec3& direction) const {
-  return glm::dot(direction, ground_normal_) <= 0.0;
 }
 
 }  // namespace sunfleck

@@ -1,9 +1,7 @@
 // Everything of a forest that takes light away, flattened for leaf-area grids: foliage elements and wood as
 // small projected areas, each with the grid cells it lies in. Made once per scene, used for any direction.
 //
-// Frame: the world moved to the middle of the scene (so that a scene at coordinates of 1e6 m loses nothing to
-// rounding); in a periodic scene moved to the corner of the period and sheared along z by the slope of the
-// ground, which makes copies that follow the ground exact repetitions and leaves rays straight.
+// Frame: see grid_frame.h.
 //
 // Projected areas, towards a unit vector w:
 //   flat element     A |n.w|
@@ -15,9 +13,9 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
+#include "lighting/depth/grid_frame.h"
 #include "lighting/depth/grid_layout.h"
 #include "sim/base/run_control.h"
 #include "sim/base/vec.h"
@@ -43,6 +41,9 @@ double projected_area_m2(const FieldElement& element, const Vec3& direction);
 // shoot; 1 for a flat element.
 double own_transmittance(const FieldElement& element, const Vec3& direction);
 
+// Root of the area of a flat element, of the mean silhouette of a shoot.
+double element_side_m(const FieldElement& element);
+
 // A wood segment (width > 0; `vector` its axis) or triangle (width 0; `vector` half its area vector).
 struct FieldWood {
   Vec3f vector{0};
@@ -61,6 +62,11 @@ struct BlockerFieldOptions {
   // Coarser cells instead of more than this, or than 512 per element where that is more than 8 million: a few
   // leaves far apart are no reason to clear a quarter of a gigabyte per direction.
   std::uint64_t max_cells = 64ull << 20;
+  // Only max_cells limits the number of cells.
+  bool keep_cell = false;
+  double margin_m = 0;  // around everything, in a scene without a period
+  std::optional<GridFrame> frame =
+      std::nullopt;  // instead of grid_frame() of the forest, which looks at every leaf
 };
 
 class BlockerField {
@@ -77,11 +83,10 @@ class BlockerField {
   // Area-weighted mean side of an element: root of its area, for shoots of its mean silhouette.
   double mean_side_m() const { return mean_side_m_; }
 
-  Vec3 field_from_world(const Vec3& point_m) const;
-  // Of a direction; keeps lengths of parameters: p + t w maps to field(p) + t field(w).
-  Vec3 field_direction(const Vec3& direction) const;
-  // True where a ray in `direction` ends on the ground plane sooner or later.
-  bool ends_on_ground(const Vec3& direction) const;
+  const GridFrame& frame() const { return frame_; }
+  Vec3 field_from_world(const Vec3& point_m) const { return frame_.field_from_world(point_m); }
+  Vec3 field_direction(const Vec3& direction) const { return frame_.field_direction(direction); }
+  bool ends_on_ground(const Vec3& direction) const { return frame_.ends_on_ground(direction); }
 
  private:
   friend class BlockerFieldBuilder;
@@ -90,10 +95,7 @@ class BlockerField {
   std::vector<BlockerPiece> element_pieces_, wood_pieces_;
   GridLayout layout_;
   double mean_side_m_ = 0;
-  Vec3 origin_m_{0};
-  Vec2 shear_{0};  // metres of height per metre east and north
-  Vec3 ground_normal_{0, 0, 1};
-  std::optional<Vec2> period_m_;
+  GridFrame frame_;
 };
 
 }  // namespace sunfleck

@@ -11,13 +11,9 @@
 #include <vector>
 
 #include "lighting/depth/blocker_field.h"
+#include "lighting/depth/grid_march.h"
 
 namespace sunfleck {
-
-// Nothing gets through more than this: exp(-80) = 1.8e-35.
-inline constexpr double kLargestDepth = 80.0;
-// A ray that went around a periodic scene this often is out: it runs level.
-inline constexpr int kMostWraps = 256;
 
 // Which way along the grid's direction.
 enum class March { kForward, kBackward };

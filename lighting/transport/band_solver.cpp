@@ -74,9 +74,10 @@ class BandSolver {
 
   void first_order() {
     DirectLight direct;
-    ground_.last = ground_irradiance(scene_, *problem_.sky, scene_.sectors.sky_radiance, control_);
+    ground_.last =
+        ground_irradiance(scene_, *problem_.sectors, *problem_.sky, problem_.sectors->sky_radiance, control_);
     for (float& e : ground_.last) e *= static_cast<float>(problem_.diffuse_w_m2);
-    ground_.open = problem_.diffuse_w_m2 * scene_.sectors.open_ground_irradiance;
+    ground_.open = problem_.diffuse_w_m2 * problem_.sectors->open_ground_irradiance;
     if (problem_.sun != nullptr) {
       direct = {problem_.sun->elements, problem_.sun->wood, problem_.beam_w_m2};
       for (std::size_t g = 0; g < ground_.last.size(); ++g)
@@ -93,7 +94,7 @@ class BandSolver {
     sweep_all(ground_.last, solution_.iterations == 0 ? ground_.open : 0.0, around_);
     add_around(1.0);
     const std::vector<double> nothing(scene_.set.count(), 0.0);
-    ground_.last = ground_irradiance(scene_, solution_.scattered, nothing, control_);
+    ground_.last = ground_irradiance(scene_, *problem_.sectors, solution_.scattered, nothing, control_);
     for (std::size_t g = 0; g < ground_.last.size(); ++g) ground_.total[g] += ground_.last[g];
     const double power =
         leaves_.next_order(solution_.scattered, 1.0, {}, orders_, solution_.scattered, control_);
@@ -133,8 +134,9 @@ class BandSolver {
     for (float& radiance : ground) radiance *= static_cast<float>(radiance_per_irradiance);
     const auto open = static_cast<float>(radiance_per_irradiance * open_irradiance);
     for_each_chunk(scene_.set.count(), 1, control_, {}, [&](std::size_t d, std::size_t) {
-      sweep(scene_.plans[d], scene_.transmittance_of(d), GroundInflow(scene_, d, ground, open),
-            scene_.part_of(solution_.scattered, d), around[d], control_);
+      sweep(scene_.plans[d], scene_.transmittance_of(d),
+            GroundInflow(scene_, *problem_.sectors, d, ground, open), scene_.part_of(solution_.scattered, d),
+            around[d], control_);
     });
   }
 

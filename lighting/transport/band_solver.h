@@ -11,7 +11,8 @@ namespace sunfleck::transport {
 
 struct BandProblem {
   double beam_w_m2 = 0, diffuse_w_m2 = 0, soil_albedo = 0;
-  const std::vector<float>* sky = nullptr;  // sky_radiance()
+  const SkySectors* sectors = nullptr;
+  const std::vector<float>* sky = nullptr;  // sky_radiance(); empty: no sky
   const DirectSun* sun = nullptr;           // null: no direct light
 };
 

@@ -53,6 +53,14 @@ std::vector<Piece> sorted_by_cell(const std::vector<Piece>& pieces, std::size_t 
   return sorted;
 }
 
+float wood_depth(const BlockerField& field, const BlockerPiece& piece, const Vec3& direction,
+                 float step_cells) {
+  const double face_m2 = std::pow(field.layout().mean_cell_m(), 2);
+  const double cover = piece.share * projected_area_m2(field.wood()[piece.blocker], direction) / face_m2;
+  const float q = std::clamp(static_cast<float>(cover) * step_cells, kSmallestCover, kLargestPartCover);
+  return depth_of_cover(q) / step_cells;
+}
+
 class Filler {
  public:
   Filler(const Forest& forest, const ForestIndex& index, const BlockerField& field, const DirectionSet& set,
@@ -66,7 +74,7 @@ class Filler {
         face_m2_(std::pow(field.layout().mean_cell_m(), 2)),
         classes_(leaf_classes(forest)) {}
 
-  CellContents run(const Vec3& to_sun) {
+  CellContents run() {
     CellContents contents;
     const auto pieces = sorted_by_cell(all_pieces(field_, control_), field_.layout().cell_count(),
                                        contents.first_part, control_);
@@ -75,7 +83,7 @@ class Filler {
       for (std::size_t i = begin; i < end; ++i) contents.parts[i] = part_of(pieces[i]);
     });
     add_shoots(contents);
-    add_wood(contents, to_sun);
+    add_wood(contents);
     add_ranges(contents);
     number_parts_of_elements(contents);
     return contents;
@@ -124,7 +132,7 @@ class Filler {
     return shoot;
   }
 
-  void add_wood(CellContents& contents, const Vec3& to_sun) const {
+  void add_wood(CellContents& contents) const {
     auto pieces = field_.wood_pieces();
     std::ranges::stable_sort(pieces, {}, &BlockerPiece::cell);
     std::size_t count = 0;
@@ -134,15 +142,8 @@ class Filler {
         contents.wood.push_back({.cell = piece.cell});
       WoodCell& cell = contents.wood.back();
       for (std::size_t j = 0; j < set_.half(); ++j)
-        cell.depth[j] += wood_depth(piece, set_.to_source[j], lanes_.step_cells[j]);
-      cell.sun_depth += wood_depth(piece, to_sun, 1.0f);
+        cell.depth[j] += wood_depth(field_, piece, set_.to_source[j], lanes_.step_cells[j]);
     }
-  }
-
-  float wood_depth(const BlockerPiece& piece, const Vec3& direction, float step_cells) const {
-    const double cover = piece.share * projected_area_m2(field_.wood()[piece.blocker], direction) / face_m2_;
-    const float q = std::clamp(static_cast<float>(cover) * step_cells, kSmallestCover, kLargestPartCover);
-    return depth_of_cover(q) / step_cells;
   }
 
   static void add_ranges(CellContents& contents) {
@@ -197,9 +198,19 @@ LeafClasses leaf_classes(const Forest& forest) {
 }
 
 CellContents cell_contents(const Forest& forest, const ForestIndex& index, const BlockerField& field,
-                           const DirectionSet& set, const DirectionLanes& lanes, const Vec3& to_sun,
-                           const RunControl& control) {
-  return Filler(forest, index, field, set, lanes, control).run(to_sun);
+                           const DirectionSet& set, const DirectionLanes& lanes, const RunControl& control) {
+  return Filler(forest, index, field, set, lanes, control).run();
+}
+
+std::vector<float> wood_depths(const CellContents& contents, const BlockerField& field,
+                               const Vec3& direction) {
+  std::vector<float> depths(contents.wood.size(), 0.0f);
+  for (const BlockerPiece& piece : field.wood_pieces()) {
+    const auto cell = std::ranges::lower_bound(contents.wood, piece.cell, {}, &WoodCell::cell);
+    depths[static_cast<std::size_t>(cell - contents.wood.begin())] +=
+        wood_depth(field, piece, direction, 1.0f);
+  }
+  return depths;
 }
 
 std::vector<float> half_step_transmittance(const CellContents& contents, const DirectionLanes& lanes,

@@ -44,8 +44,7 @@ struct ShootPart {
 
 struct WoodCell {
   std::uint32_t cell = 0;
-  Lanes depth{};        // sum of g over all wood in the cell
-  float sun_depth = 0;  // the same towards the sun
+  Lanes depth{};  // sum of g over all wood in the cell
 };
 
 // Classes of elements with the same optics: one per material of a prototype.
@@ -70,10 +69,13 @@ struct CellContents {
   std::vector<std::uint32_t> parts_of_element, first_part_of_element;
 };
 
-// Elements below the ground are left out: neither lit nor shading. `to_sun` is unit.
+// Elements below the ground are left out: neither lit nor shading.
 CellContents cell_contents(const Forest& forest, const ForestIndex& index, const BlockerField& field,
-                           const DirectionSet& set, const DirectionLanes& lanes, const Vec3& to_sun,
-                           const RunControl& control);
+                           const DirectionSet& set, const DirectionLanes& lanes, const RunControl& control);
+
+// Sum of g over all wood of a cell along a unit direction, per WoodCell, for a step of one cell.
+std::vector<float> wood_depths(const CellContents& contents, const BlockerField& field,
+                               const Vec3& direction);
 
 // exp(-extinction times half the way from slab to slab) for every half direction and cell, [half][cell].
 std::vector<float> half_step_transmittance(const CellContents& contents, const DirectionLanes& lanes,

@@ -11,9 +11,38 @@ namespace sunfleck::transport {
 
 namespace {
 
-void light_elements(DirectSun& sun, const BlockerField& field, const ExtinctionGrid& grid, const Vec3& to_sun,
-                    const RunControl& control) {
-  const std::vector<float> depths = grid.depth_of_elements(March::kForward, control);
+// Small chunks: level rays go around a periodic scene many times.
+constexpr std::size_t kPointsPerChunk = 16;
+
+void light_ground(DirectSun& sun, const GroundMap& ground, const ExtinctionGrid& grid,
+                  const RunControl& control) {
+  for_each_chunk(ground.count(), kPointsPerChunk, control, {}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t g = begin; g < end; ++g)
+      sun.ground[g] = static_cast<float>(
+          sun.open_ground * std::exp(-grid.depth_from_point(ground.world_point(g), March::kForward)));
+  });
+}
+
+void light_wood(DirectSun& sun, const TransportScene& scene, const ExtinctionGrid& grid, const Vec3& to_sun,
+                const RunControl& control) {
+  const GridLayout& layout = scene.layout;
+  const std::vector<float> depths = wood_depths(scene.contents, *scene.field, to_sun);
+  for_each_chunk(sun.wood.size(), kPointsPerChunk, control, {}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t w = begin; w < end; ++w) {
+      const auto cell = layout.unflat(scene.contents.wood[w].cell);
+      const Vec3 centre = layout.lo_m + (Vec3(cell[0], cell[1], cell[2]) + 0.5) * layout.cell_m;
+      sun.wood[w] = depths[w] * static_cast<float>(std::exp(-grid.depth_from_point(
+                                    scene.ground->world_from_field(centre), March::kForward)));
+    }
+  });
+}
+
+}  // namespace
+
+void light_elements(DirectSun& sun, const BlockerField& field, std::span<const float> depths,
+                    const Vec3& to_sun, const RunControl& control) {
+  sun.elements.assign(field.elements().size(), {});
+  sun.sunlit_fraction.assign(field.elements().size(), 0.0f);
   for_each_chunk(depths.size(), 4096, control, {}, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const FieldElement& e = field.elements()[i];
@@ -28,33 +57,6 @@ void light_elements(DirectSun& sun, const BlockerField& field, const ExtinctionG
   });
 }
 
-// Small chunks: level rays go around a periodic scene many times.
-constexpr std::size_t kPointsPerChunk = 16;
-
-void light_ground(DirectSun& sun, const GroundMap& ground, const ExtinctionGrid& grid,
-                  const RunControl& control) {
-  for_each_chunk(ground.count(), kPointsPerChunk, control, {}, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t g = begin; g < end; ++g)
-      sun.ground[g] = static_cast<float>(
-          sun.open_ground * std::exp(-grid.depth_from_point(ground.world_point(g), March::kForward)));
-  });
-}
-
-void light_wood(DirectSun& sun, const TransportScene& scene, const ExtinctionGrid& grid,
-                const RunControl& control) {
-  const GridLayout& layout = scene.field->layout();
-  for_each_chunk(sun.wood.size(), kPointsPerChunk, control, {}, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t w = begin; w < end; ++w) {
-      const auto cell = layout.unflat(scene.contents.wood[w].cell);
-      const Vec3 centre = layout.lo_m + (Vec3(cell[0], cell[1], cell[2]) + 0.5) * layout.cell_m;
-      sun.wood[w] = static_cast<float>(
-          std::exp(-grid.depth_from_point(scene.ground->world_from_field(centre), March::kForward)));
-    }
-  });
-}
-
-}  // namespace
-
 DirectSun direct_sun(const TransportScene& scene, const Forest& forest, const Vec3& to_sun,
                      const RunControl& control) {
   const BlockerField& field = *scene.field;
@@ -66,9 +68,9 @@ DirectSun direct_sun(const TransportScene& scene, const Forest& forest, const Ve
   if (field.ends_on_ground(to_sun)) return sun;
   sun.open_ground = glm::dot(to_sun, forest.terrain.normal());
   const ExtinctionGrid grid(field, to_sun, control);
-  light_elements(sun, field, grid, to_sun, control);
+  light_elements(sun, field, grid.depth_of_elements(March::kForward, control), to_sun, control);
   light_ground(sun, *scene.ground, grid, control);
-  light_wood(sun, scene, grid, control);
+  light_wood(sun, scene, grid, to_sun, control);
   return sun;
 }
 

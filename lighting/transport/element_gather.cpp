@@ -57,51 +57,85 @@ Corners only_cell(std::uint32_t cell) {
   return corners;
 }
 
+// Radiance of a cell: from the directions of the half set, and from their opposites.
+struct alignas(64) CellRadiance {
+  alignas(64) Lanes near{}, far{};
+};
+
+std::vector<CellRadiance> by_cell(const TransportScene& scene, std::span<const float> radiance,
+                                  const RunControl& control) {
+  const std::size_t cells = scene.cells(), half = scene.set.half();
+  std::vector<CellRadiance> all(cells);
+  for_each_chunk(cells, 8192, control, {}, [&](std::size_t begin, std::size_t end) {
+    constexpr std::size_t kBlock = 16;  // cells: one line of memory in every direction
+    for (std::size_t b = begin; b < end; b += kBlock)
+      for (std::size_t j = 0; j < half; ++j)
+        for (std::size_t c = b; c < std::min(end, b + kBlock); ++c) {
+          all[c].near[j] = radiance[j * cells + c];
+          all[c].far[j] = radiance[(half + j) * cells + c];
+        }
+  });
+  return all;
+}
+
 class PartGather {
  public:
-  PartGather(const TransportScene& scene, std::span<const float> radiance, std::span<const FacePair> given)
-      : scene_(scene), radiance_(radiance.data()), given_(given), lanes_(scene.lanes) {}
+  PartGather(const TransportScene& scene, const std::vector<CellRadiance>& radiance,
+             std::span<const FacePair> given)
+      : scene_(scene), radiance_(radiance), given_(given), lanes_(scene.lanes) {}
 
   FacePair light_of(std::size_t index, const Corners& corners) const {
     const LeafPart& part = scene_.contents.parts[index];
     const ShootPart* shoot = part.shoot > 0 ? &scene_.contents.shoots[part.shoot - 1] : nullptr;
     const FacePair given = given_.empty() ? FacePair{} : given_[index];
-    Lanes cosine, depth;
+    alignas(64) Lanes cosine, depth, cover, weight, front, back;
     if (shoot != nullptr) {
       shoot_depths(*shoot, lanes_, cosine, depth);
+      cover = shoot->cover;
     } else {
       cosines_of(part, lanes_, cosine);
       depths_of(part.cover, lanes_, cosine, depth);
+      for (std::size_t j = 0; j < kLanes; ++j) cover[j] = std::fabs(cosine[j]);
     }
-    float front = 0.0f, back = 0.0f, norm = 0.0f;
-    for (std::size_t j = 0; j < scene_.set.half(); ++j) {
+    const CellRadiance between = mean_of(corners);
+    const CellRadiance& own_cell = radiance_[corners.own_cell];
+    // What reaches the front travels as what the part sends off its back.
+    const float sent_front = given.front / static_cast<float>(kPi),
+                sent_back = given.back / static_cast<float>(kPi);
+    for (std::size_t j = 0; j < kLanes; ++j) {
       const bool on_front = cosine[j] >= 0.0f;
       const float own = corners.own_weight * own_part(depth[j], lanes_.step_cells[j]);
-      const float near = radiance_at(j, corners, own, on_front ? given.back : given.front);
-      const float far = radiance_at(scene_.set.half() + j, corners, own, on_front ? given.front : given.back);
-      const float weight =
-          lanes_.solid_angle_sr[j] * (shoot != nullptr ? shoot->cover[j] : std::abs(cosine[j]));
-      front += weight * (on_front ? near : far);
-      back += weight * (on_front ? far : near);
-      norm += weight;
+      const float near =
+          without_own(between.near[j], own_cell.near[j], own, on_front ? sent_back : sent_front);
+      const float far = without_own(between.far[j], own_cell.far[j], own, on_front ? sent_front : sent_back);
+      weight[j] = lanes_.solid_angle_sr[j] * cover[j];
+      front[j] = weight[j] * (on_front ? near : far);
+      back[j] = weight[j] * (on_front ? far : near);
     }
-    const float per_radiance = static_cast<float>(kPi) / norm;
-    if (shoot == nullptr) return {per_radiance * front, per_radiance * back};
-    const float even = shoot->escape * per_radiance * 0.5f * (front + back);
+    const float per_radiance = static_cast<float>(kPi) / sum_of(weight);
+    const float on_front = per_radiance * sum_of(front), on_back = per_radiance * sum_of(back);
+    if (shoot == nullptr) return {on_front, on_back};
+    const float even = shoot->escape * 0.5f * (on_front + on_back);
     return {even, even};
   }
 
  private:
-  float radiance_at(std::size_t direction, const Corners& corners, float own, float own_radiosity) const {
-    const float* radiance = radiance_ + direction * scene_.cells();
-    float sum = 0.0f;
-    for (std::size_t k = 0; k < 8; ++k) sum += corners.weight[k] * radiance[corners.cell[k]];
-    const float own_radiance = own_radiosity * static_cast<float>(1.0 / kPi);
-    return std::max(0.0f, sum + own * (radiance[corners.own_cell] - own_radiance));
+  static float without_own(float radiance, float in_own_cell, float own, float own_radiance) {
+    return std::max(0.0f, radiance + own * (in_own_cell - own_radiance));
+  }
+
+  CellRadiance mean_of(const Corners& corners) const {
+    CellRadiance sum;
+    for (std::size_t k = 0; k < 8; ++k) {
+      const CellRadiance& corner = radiance_[corners.cell[k]];
+      for (std::size_t j = 0; j < kLanes; ++j) sum.near[j] += corners.weight[k] * corner.near[j];
+      for (std::size_t j = 0; j < kLanes; ++j) sum.far[j] += corners.weight[k] * corner.far[j];
+    }
+    return sum;
   }
 
   const TransportScene& scene_;
-  const float* radiance_;
+  const std::vector<CellRadiance>& radiance_;
   const std::span<const FacePair> given_;
   const DirectionLanes& lanes_;
 };
@@ -109,7 +143,8 @@ class PartGather {
 std::vector<FacePair> light_of_parts(const TransportScene& scene, std::span<const float> radiance,
                                      std::span<const FacePair> given, const RunControl& control) {
   const CellContents& contents = scene.contents;
-  const PartGather parts(scene, radiance, given);
+  const std::vector<CellRadiance> of_cells = by_cell(scene, radiance, control);
+  const PartGather parts(scene, of_cells, given);
   std::vector<FacePair> light(contents.parts.size());
   for_each_chunk(contents.ranges.size(), 1, control, {}, [&](std::size_t r, std::size_t) {
     for (std::uint32_t cell = contents.ranges[r].begin; cell < contents.ranges[r].end; ++cell) {
@@ -144,6 +179,16 @@ std::vector<FacePair> gather(const TransportScene& scene, std::span<const float>
     }
   });
   return light;
+}
+
+void add_light_inside_shoot(const CellContents& contents, std::size_t e, const std::vector<LeafBand>& leaf,
+                            ElementLight& light) {
+  if (contents.first_part_of_element[e] == contents.first_part_of_element[e + 1]) return;
+  const LeafPart& part = contents.parts[contents.parts_of_element[contents.first_part_of_element[e]]];
+  const float gain = shoot_gain(leaf[part.optics].albedo, contents.shoots[part.shoot - 1].escape) - 1.0f;
+  const float inside = gain * 0.5f * (light.front.total() + light.back.total());
+  light.front.scattered_w_m2 += inside;
+  light.back.scattered_w_m2 += inside;
 }
 
 }  // namespace sunfleck::transport

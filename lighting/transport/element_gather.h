@@ -8,6 +8,7 @@
 // is taken out by own_part(), by the weight that the leaf's own cell has between the eight centres.
 #pragma once
 
+#include "lighting/base/light_map.h"
 #include "lighting/transport/leaf_scattering.h"
 #include "lighting/transport/transport_scene.h"
 
@@ -16,5 +17,9 @@ namespace sunfleck::transport {
 // Per element; 0 below the ground. `given`: radiosity of every part that is in `radiance`; empty: none.
 std::vector<FacePair> gather(const TransportScene& scene, std::span<const float> radiance,
                              std::span<const FacePair> given, const RunControl& control);
+
+// Needles of a shoot light each other: adds to light from outside. `leaf` by optics class.
+void add_light_inside_shoot(const CellContents& contents, std::size_t element,
+                            const std::vector<LeafBand>& leaf, ElementLight& light);
 
 }  // namespace sunfleck::transport

@@ -11,9 +11,9 @@
 #include "lighting/base/summaries.h"
 #include "lighting/transport/band_solver.h"
 #include "lighting/transport/element_gather.h"
-#include "lighting/transport/grid_notes.h"
+#include "lighting/transport/grid_limits.h"
+#include "lighting/transport/grid_parts.h"
 #include "sim/base/contract.h"
-#include "sim/base/error.h"
 #include "sim/base/parallel.h"
 #include "sim/base/version.h"
 
@@ -29,35 +29,28 @@ std::string number(double value) {
   return out.str();
 }
 
-void check_options(const GridOptions& o) {
-  if (o.directions != 8 && o.directions != 14 && o.directions != 26)
-    throw_invalid("grid.directions", std::to_string(o.directions) + " directions are not built",
-                  "8, 14 or 26");
-  if (!(o.cell_m >= 0.0 && std::isfinite(o.cell_m)))
-    throw_invalid("grid.cell_m", "a cell cannot be " + number(o.cell_m) + " m",
-                  "a length in metres, best 2 to 4 leaf sides, or 0 to have it chosen");
-  if (!(o.convergence > 0.0 && o.convergence <= 0.5))
-    throw_invalid("grid.convergence", number(o.convergence) + " is out of range",
-                  "more than 0, at most 0.5; 0.002 is usual");
-  if (o.max_iterations < 1 || o.max_iterations > 10000)
-    throw_invalid("grid.max_iterations", std::to_string(o.max_iterations) + " is out of range", "1 to 10000");
-}
-
 class GridEstimate {
  public:
   GridEstimate(const Forest& forest, const OpticsTable& optics, Illumination light,
-               const GridOptions& options, const RunControl& control)
+               const GridOptions& options, const GridPrepared& prepared, const GridSources& sources,
+               const RunControl& control)
       : forest_(forest),
         index_(forest),
         optics_(optics),
         light_(std::move(light)),
         options_(options),
-        control_(control) {}
+        prepared_(prepared),
+        scene_(*prepared.scene),
+        sun_(sources.sun ? &sources.sun->light : nullptr),
+        sky_(*sources.sky),
+        control_(control) {
+    SUNFLECK_EXPECTS(scene_.field->elements().size() == index_.element_count());
+    SUNFLECK_EXPECTS(!sources.sun || sources.sun->to_sun == light_.to_sun);
+    SUNFLECK_EXPECTS(sky_.model == light_.sky);
+  }
 
   LightMap run() {
     start();
-    build_scene();
-    light_directly();
     for (std::size_t b = 0; b < optics_.band_count(); ++b) fill_band(b);
     summarize(forest_, index_, optics_, map_);
     if (scene_.periodic)
@@ -69,7 +62,8 @@ class GridEstimate {
 
  private:
   void start() {
-    map_.sunlit_fraction.resize(index_.element_count());
+    map_.sunlit_fraction =
+        sun_ != nullptr ? sun_->sunlit_fraction : std::vector<float>(index_.element_count());
     for (const std::string& band : optics_.bands()) {
       BandLightMap& added = map_.bands.emplace_back();
       added.band = band;
@@ -77,54 +71,28 @@ class GridEstimate {
     }
     map_.provenance.method = "grid";
     map_.provenance.version = kVersion;
-    map_.provenance.forest_hash = content_hash(forest_);
-  }
-
-  bool any(double BandLight::*strength) const {
-    return std::ranges::any_of(light_.bands, [&](const BandLight& b) { return b.*strength > 0.0; });
-  }
-
-  void build_scene() {
-    const StageTimer timer(map_.provenance, "leaf-area grid");
-    control_.report("leaf-area grid", 0.0);
-    scene_ = transport_scene(forest_, index_, light_, options_.directions, options_.cell_m, control_);
-    control_.report("leaf-area grid", 1.0);
-  }
-
-  void light_directly() {
-    if (light_.sun_is_up() && any(&BandLight::beam_normal_w_m2)) {
-      const StageTimer timer(map_.provenance, "sun");
-      sun_ = direct_sun(scene_, forest_, light_.to_sun, control_);
-      map_.sunlit_fraction = sun_.sunlit_fraction;
-      has_sun_ = true;
-    } else {
+    map_.provenance.forest_hash = prepared_.forest_hash;
+    if (sun_ == nullptr)
       map_.provenance.skipped.push_back(
           {"direct sun",
            light_.sun_is_up() ? "no band has direct sunlight" : "the sun is not above the horizon", 0.0});
-    }
-    if (any(&BandLight::diffuse_horizontal_w_m2)) {
-      const StageTimer timer(map_.provenance, "sky sweeps");
-      sky_ = sky_radiance(scene_, control_);
-      sky_on_elements_ = gather(scene_, sky_, {}, control_);
-    } else {
+    if (std::ranges::none_of(light_.bands, [](const BandLight& b) { return b.diffuse_horizontal_w_m2 > 0; }))
       map_.provenance.skipped.push_back({"sky sweeps", "no band has diffuse light", 0.0});
-      sky_.assign(scene_.set.count() * scene_.cells(), 0.0f);
-      sky_on_elements_.resize(index_.element_count());
-    }
   }
 
   void fill_band(std::size_t b) {
     const double bands = static_cast<double>(optics_.band_count());
     control_.report("sweeps", static_cast<double>(b) / bands);
-    const double face_m2 = std::pow(scene_.field->layout().mean_cell_m(), 2);
+    const double face_m2 = std::pow(scene_.layout.mean_cell_m(), 2);
     std::vector<LeafBand> leaf = leaf_bands(forest_, optics_, b);
     const LeafScattering leaves(scene_.contents, scene_.lanes, scene_.set.half(), face_m2, leaf,
                                 mean_bark_reflectance(forest_, optics_, b));
-    const BandProblem problem{.beam_w_m2 = has_sun_ ? light_.bands[b].beam_normal_w_m2 : 0.0,
+    const BandProblem problem{.beam_w_m2 = sun_ != nullptr ? light_.bands[b].beam_normal_w_m2 : 0.0,
                               .diffuse_w_m2 = light_.bands[b].diffuse_horizontal_w_m2,
                               .soil_albedo = optics_.soil_albedo(b),
-                              .sky = &sky_,
-                              .sun = has_sun_ ? &sun_ : nullptr};
+                              .sectors = &sky_.sectors,
+                              .sky = &sky_.radiance,
+                              .sun = sun_};
     BandSolution solution;
     {
       const StageTimer timer(map_.provenance, "sweeps");
@@ -152,25 +120,15 @@ class GridEstimate {
     std::vector<ElementLight>& elements = map_.bands[b].elements;
     for_each_chunk(elements.size(), 8192, control_, {}, [&](std::size_t begin, std::size_t end) {
       for (std::size_t e = begin; e < end; ++e) {
-        const FacePair direct = has_sun_ ? sun_.elements[e] : FacePair{};
+        const FacePair direct = sun_ != nullptr ? sun_->elements[e] : FacePair{};
         elements[e].front = face(problem.beam_w_m2 * direct.front,
-                                 problem.diffuse_w_m2 * sky_on_elements_[e].front, scattered[e].front);
+                                 problem.diffuse_w_m2 * sky_.on_elements[e].front, scattered[e].front);
         elements[e].back = face(problem.beam_w_m2 * direct.back,
-                                problem.diffuse_w_m2 * sky_on_elements_[e].back, scattered[e].back);
-        if (scene_.field->elements()[e].is_shoot()) add_light_inside_shoot(e, leaf, elements[e]);
+                                problem.diffuse_w_m2 * sky_.on_elements[e].back, scattered[e].back);
+        if (scene_.field->elements()[e].is_shoot())
+          add_light_inside_shoot(scene_.contents, e, leaf, elements[e]);
       }
     });
-  }
-
-  // Needles of a shoot light each other.
-  void add_light_inside_shoot(std::size_t e, const std::vector<LeafBand>& leaf, ElementLight& light) const {
-    const CellContents& contents = scene_.contents;
-    if (contents.first_part_of_element[e] == contents.first_part_of_element[e + 1]) return;
-    const LeafPart& part = contents.parts[contents.parts_of_element[contents.first_part_of_element[e]]];
-    const float gain = shoot_gain(leaf[part.optics].albedo, contents.shoots[part.shoot - 1].escape) - 1.0f;
-    const float inside = gain * 0.5f * (light.front.total() + light.back.total());
-    light.front.scattered_w_m2 += inside;
-    light.back.scattered_w_m2 += inside;
   }
 
   // A period is closed but for the sky: what the parts of the estimate do not agree on is the residual.
@@ -180,8 +138,8 @@ class GridEstimate {
     const double area = scene_.ground->cell_area_m2();
     const double cells = static_cast<double>(scene_.ground->count());
     budget.incident_w = area * cells *
-                        (problem.diffuse_w_m2 * scene_.sectors.open_ground_irradiance +
-                         problem.beam_w_m2 * (has_sun_ ? sun_.open_ground : 0.0));
+                        (problem.diffuse_w_m2 * sky_.sectors.open_ground_irradiance +
+                         problem.beam_w_m2 * (sun_ != nullptr ? sun_->open_ground : 0.0));
     for (const float e : solution.ground_irradiance)
       budget.absorbed_ground_w += area * (1.0 - problem.soil_albedo) * e;
     const double bark = mean_bark_reflectance(forest_, optics_, b);
@@ -195,7 +153,7 @@ class GridEstimate {
     const std::size_t cells = scene_.cells(), top = cells - scene_.ground->count(), half = scene_.set.half();
     double sum = 0.0;
     for (std::size_t d = 0; d < scene_.set.count(); ++d) {
-      const double weight = scene_.sectors.ground_weight_sr[d];
+      const double weight = sky_.sectors.ground_weight_sr[d];
       const std::size_t upwards = (d + half) % scene_.set.count();
       for (std::size_t c = top; c < cells && weight > 0.0; ++c) sum += weight * radiance[upwards * cells + c];
     }
@@ -213,12 +171,11 @@ class GridEstimate {
   void state_settings() {
     Provenance& p = map_.provenance;
     p.settings = {{"directions", std::to_string(scene_.set.count())},
-                  {"cell_m", number(scene_.field->layout().mean_cell_m())},
+                  {"cell_m", number(scene_.layout.mean_cell_m())},
                   {"cells", std::to_string(scene_.cells())},
                   {"convergence", number(options_.convergence)},
                   {"iterations", std::to_string(iterations_)}};
-    const auto notes = grid_notes(forest_, scene_);
-    p.notes.insert(p.notes.end(), notes.begin(), notes.end());
+    p.notes.insert(p.notes.end(), prepared_.notes.begin(), prepared_.notes.end());
   }
 
   const Forest& forest_;
@@ -226,12 +183,11 @@ class GridEstimate {
   const OpticsTable& optics_;
   const Illumination light_;
   const GridOptions& options_;
+  const GridPrepared& prepared_;
+  const TransportScene& scene_;
+  const DirectSun* const sun_;
+  const GridSky& sky_;
   const RunControl& control_;
-  TransportScene scene_;
-  bool has_sun_ = false;
-  DirectSun sun_;
-  std::vector<float> sky_;
-  std::vector<FacePair> sky_on_elements_;
   int iterations_ = 0;
   LightMap map_;
 };
@@ -239,13 +195,36 @@ class GridEstimate {
 }  // namespace
 
 LightMap grid_light_map(const Forest& forest, const OpticsTable& optics, const Illumination& light,
+                        const GridOptions& options, const GridPrepared& prepared, const GridSources& sources,
+                        const RunControl& control) {
+  check_grid_options(options);
+  SUNFLECK_EXPECTS(prepared.scene != nullptr && sources.sky != nullptr);
+  return GridEstimate(forest, optics, checked(light, optics.band_count()), options, prepared, sources,
+                      control)
+      .run();
+}
+
+LightMap grid_light_map(const Forest& forest, const OpticsTable& optics, const Illumination& light,
+                        const GridOptions& options, const GridPrepared& prepared, const RunControl& control) {
+  Provenance provenance;
+  GridSources sources;
+  const Illumination good = checked(light, optics.band_count());
+  {
+    const StageTimer timer(provenance, "sun and sky");
+    sources = grid_sources(forest, good, prepared, {}, control);
+  }
+  LightMap map = grid_light_map(forest, optics, good, options, prepared, sources, control);
+  map.provenance.times.insert(map.provenance.times.begin(), provenance.times.begin(), provenance.times.end());
+  return map;
+}
+
+LightMap grid_light_map(const Forest& forest, const OpticsTable& optics, const Illumination& light,
                         const GridOptions& options, const RunControl& control) {
-  check_options(options);
-  validate(forest);
-  if (ForestIndex(forest).element_count() == 0)
-    throw_invalid("forest", "it has no foliage element, so there is nothing to compute light for",
-                  "give a forest with at least one tree that has leaves or shoots");
-  return GridEstimate(forest, optics, checked(light, optics.band_count()), options, control).run();
+  const Illumination good = checked(light, optics.band_count());
+  const GridPrepared prepared = prepare_grid(forest, options, control);
+  LightMap map = grid_light_map(forest, optics, good, options, prepared, control);
+  map.provenance.times.insert(map.provenance.times.begin(), prepared.times.begin(), prepared.times.end());
+  return map;
 }
 
 }  // namespace sunfleck

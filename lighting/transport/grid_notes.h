@@ -4,14 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "lighting/transport/grid_limits.h"
 #include "lighting/transport/transport_scene.h"
 
 namespace sunfleck::transport {
-
-// Prototypes with fewer elements than this are no random medium: rays are the better choice.
-inline constexpr std::size_t kFewElements = 300;
-// Cells smaller than this many leaf sides light and shade a leaf by itself.
-inline constexpr double kFewestSides = 1.5;
 
 std::vector<std::string> grid_notes(const Forest& forest, const TransportScene& scene);
 

@@ -8,32 +8,26 @@
 
 namespace sunfleck::transport {
 
-namespace {
-
-constexpr int kMostCellsPerSide = 96;
-
-}  // namespace
-
-GroundMap::GroundMap(const Forest& forest, const BlockerField& field, const DirectionSet& set,
-                     const RunControl& control)
-    : terrain_(forest.terrain), wraps_(field.layout().wraps_xy) {
+GroundMap::GroundMap(const Forest& forest, const GridFrame& frame, const GridLayout& layout,
+                     const DirectionSet& set, int cells_per_side, const RunControl& control)
+    : terrain_(forest.terrain), wraps_(layout.wraps_xy) {
   Vec3 world = forest_bounds(forest).centre();
   if (forest.period) world = Vec3(forest.period->origin_m + 0.5 * forest.period->size_m, world.z);
   world.z = terrain_.height_at(world.x, world.y);
-  point_m_ = field.field_from_world(world);
+  point_m_ = frame.field_from_world(world);
   world_from_field_m_ = world - point_m_;
   if (!wraps_) normal_ = terrain_.normal();
-  choose_extent(forest, field.layout());
+  choose_extent(forest, layout, cells_per_side);
   entries_.assign(set.count() * count(), kOpen);
   for_each_chunk(set.count(), 1, control, {}, [&](std::size_t j, std::size_t) {
-    if (field.ends_on_ground(set.to_source[j])) return;
-    const Vec3 towards = field.field_direction(set.to_source[j]);
+    if (frame.ends_on_ground(set.to_source[j])) return;
+    const Vec3 towards = frame.field_direction(set.to_source[j]);
     for (std::size_t g = 0; g < count(); ++g)
-      entries_[j * count() + g] = grid_entry(field_point(g), towards, field.layout());
+      entries_[j * count() + g] = grid_entry(field_point(g), towards, layout);
   });
 }
 
-void GroundMap::choose_extent(const Forest& forest, const GridLayout& layout) {
+void GroundMap::choose_extent(const Forest& forest, const GridLayout& layout, int cells_per_side) {
   lo_m_ = Vec2(layout.lo_m);
   Vec2 size(layout.size_m());
   if (wraps_) {
@@ -51,7 +45,7 @@ void GroundMap::choose_extent(const Forest& forest, const GridLayout& layout) {
   const double margin = std::max(height, 0.25 * std::max(size.x, size.y));
   lo_m_ -= Vec2(margin);
   size += Vec2(2.0 * margin);
-  const double wanted = std::max(std::max(size.x, size.y) / kMostCellsPerSide, layout.mean_cell_m());
+  const double wanted = std::max(std::max(size.x, size.y) / cells_per_side, layout.mean_cell_m());
   nx_ = static_cast<int>(std::ceil(size.x / wanted - 1e-9));
   ny_ = static_cast<int>(std::ceil(size.y / wanted - 1e-9));
   // Both grids even or both odd: on a middle between cells, rounding would decide where symmetric rays meet.

@@ -5,7 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "lighting/depth/blocker_field.h"
+#include "lighting/depth/grid_frame.h"
+#include "lighting/depth/grid_layout.h"
 #include "lighting/transport/direction_set.h"
 #include "sim/base/run_control.h"
 
@@ -15,8 +16,11 @@ class GroundMap {
  public:
   static constexpr std::int32_t kOpen = -1;
 
-  GroundMap(const Forest& forest, const BlockerField& field, const DirectionSet& set,
-            const RunControl& control);
+  static constexpr int kUsualCellsPerSide = 96;
+
+  // At most `cells_per_side` cells along a side, in a periodic scene one below every column of the grid.
+  GroundMap(const Forest& forest, const GridFrame& frame, const GridLayout& layout, const DirectionSet& set,
+            int cells_per_side, const RunControl& control);
 
   std::size_t count() const { return static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_); }
   double cell_area_m2() const;               // of the tilted plane
@@ -36,7 +40,7 @@ class GroundMap {
   }
 
  private:
-  void choose_extent(const Forest& forest, const GridLayout& layout);
+  void choose_extent(const Forest& forest, const GridLayout& layout, int cells_per_side);
   Vec3 field_point(std::size_t cell) const;
   std::int32_t grid_entry(const Vec3& start_m, const Vec3& towards, const GridLayout& layout) const;
 

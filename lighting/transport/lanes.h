@@ -26,6 +26,15 @@ inline DirectionLanes direction_lanes(const DirectionSet& set, const std::vector
   return lanes;
 }
 
+// Sums in a fixed order that runs in vector registers.
+inline float sum_of(const Lanes& a) {
+  static_assert(kLanes == 16);
+  float eight[8], four[4];
+  for (std::size_t j = 0; j < 8; ++j) eight[j] = a[j] + a[j + 8];
+  for (std::size_t j = 0; j < 4; ++j) four[j] = eight[j] + eight[j + 4];
+  return (four[0] + four[2]) + (four[1] + four[3]);
+}
+
 // Cosine between normal and direction; its sign tells the face.
 inline void cosines_of(const LeafPart& part, const DirectionLanes& w, Lanes& cosine) {
   for (std::size_t j = 0; j < kLanes; ++j)

@@ -11,15 +11,6 @@ namespace sunfleck::transport {
 
 namespace {
 
-// Sums in a fixed order that runs in vector registers.
-float sum_of(const Lanes& a) {
-  static_assert(kLanes == 16);
-  float eight[8], four[4];
-  for (std::size_t j = 0; j < 8; ++j) eight[j] = a[j] + a[j + 8];
-  for (std::size_t j = 0; j < 4; ++j) four[j] = eight[j] + eight[j + 4];
-  return (four[0] + four[2]) + (four[1] + four[3]);
-}
-
 constexpr float kPiF = static_cast<float>(kPi);
 
 FacePair with_tail(const FacePair& total, const FacePair& last, double tail) {
@@ -77,14 +68,16 @@ struct LeafScattering::Cell {
 };
 
 LeafScattering::LeafScattering(const CellContents& contents, const DirectionLanes& lanes, std::size_t half,
-                               double cell_face_m2, std::vector<LeafBand> bands, double bark_reflectance)
+                               double cell_face_m2, std::vector<LeafBand> bands, double bark_reflectance,
+                               const Background* background)
     : contents_(contents),
       lanes_(lanes),
       half_(half),
       cells_(contents.first_part.size() - 1),
       face_m2_(cell_face_m2),
       bands_(std::move(bands)),
-      bark_reflectance_(static_cast<float>(bark_reflectance)) {}
+      bark_reflectance_(static_cast<float>(bark_reflectance)),
+      background_(background) {}
 
 void LeafScattering::part_depths(const LeafPart& part, Lanes& cosine, Lanes& depth) const {
   if (part.shoot > 0) return shoot_depths(contents_.shoots[part.shoot - 1], lanes_, cosine, depth);
@@ -157,8 +150,7 @@ double LeafScattering::wood_order(std::size_t index, Cell& cell, double scale, c
     weight += 2.0f * lanes_.solid_angle_sr[j] * wood.depth[j];
   }
   float radiance = static_cast<float>(scale) * arriving / weight;
-  if (!direct.wood.empty())
-    radiance += static_cast<float>(direct.beam_w_m2) * direct.wood[index] * wood.sun_depth / weight;
+  if (!direct.wood.empty()) radiance += static_cast<float>(direct.beam_w_m2) * direct.wood[index] / weight;
   orders.wood_last[index] = radiance;
   orders.wood_total[index] += radiance;
   return static_cast<double>(bark_reflectance_) * radiance * weight * face_m2_;
@@ -174,11 +166,17 @@ void LeafScattering::for_each_cell(std::span<const float> radiance, std::span<fl
     std::uint32_t wood = range.wood_begin;
     for (std::uint32_t c = range.begin; c < range.end; ++c) {
       const bool has_wood = wood < range.wood_end && contents_.wood[wood].cell == c;
-      if (first_part[c] == first_part[c + 1] && !has_wood) {
+      if (first_part[c] == first_part[c + 1] && !has_wood && background_ == nullptr) {
         for (std::size_t d = 0; d < 2 * half_; ++d) source[d * cells_ + c] = 0.0f;
         continue;
       }
       Cell cell;
+      if (background_ != nullptr) {
+        const std::uint32_t kind = background_->of_cell[c];
+        cell.depth = background_->depth[kind];
+        cell.source_near = background_->source_near[kind];
+        cell.source_far = background_->source_far[kind];
+      }
       for (std::size_t j = 0; j < half_ && !radiance.empty(); ++j) {
         cell.near[j] = radiance[j * cells_ + c];
         cell.far[j] = radiance[(half_ + j) * cells_ + c];
@@ -194,8 +192,10 @@ void LeafScattering::for_each_cell(std::span<const float> radiance, std::span<fl
         ++wood;
       }
       for (std::size_t j = 0; j < half_; ++j) {
-        source[j * cells_ + c] = cell.source_near[j] / cell.depth[j];
-        source[(half_ + j) * cells_ + c] = cell.source_far[j] / cell.depth[j];
+        // Nothing at all is in many cells of a background.
+        const float per_depth = cell.depth[j] > 0.0f ? 1.0f / cell.depth[j] : 0.0f;
+        source[j * cells_ + c] = cell.source_near[j] * per_depth;
+        source[(half_ + j) * cells_ + c] = cell.source_far[j] * per_depth;
       }
     }
   });

@@ -42,17 +42,27 @@ struct Orders {
   std::vector<float> wood_last, wood_total;
 };
 
-// Direct light: per element the irradiance of both faces, per WoodCell the sun's share.
+// Direct light: per element the irradiance of both faces, per WoodCell what its wood takes.
 struct DirectLight {
   std::span<const FacePair> elements;  // empty: none
   std::span<const float> wood;
   double beam_w_m2 = 0;
 };
 
+// A medium beside leaves and wood, of which every cell has one of a few kinds: g towards every direction of
+// the half set, and the source that goes with it (near: from the half set's directions, far: their
+// opposites).
+struct Background {
+  std::vector<std::uint32_t> of_cell;
+  std::vector<Lanes> depth, source_near, source_far;  // per kind
+};
+
 class LeafScattering {
  public:
+  // `background` may be null.
   LeafScattering(const CellContents& contents, const DirectionLanes& lanes, std::size_t half,
-                 double cell_face_m2, std::vector<LeafBand> bands, double bark_reflectance);
+                 double cell_face_m2, std::vector<LeafBand> bands, double bark_reflectance,
+                 const Background* background = nullptr);
 
   // Takes light from `radiance` times `scale` and from `direct`, keeps it in `orders`, and writes the source
   // function of what it gives back to `source` (may be the same memory); both [direction][cell]. Returns the
@@ -88,6 +98,7 @@ class LeafScattering {
   const double face_m2_;
   const std::vector<LeafBand> bands_;
   const float bark_reflectance_;
+  const Background* const background_;
 };
 
 }  // namespace sunfleck::transport

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lighting/transport/sweep_row.h"
 #include "sim/base/contract.h"
 
 namespace sunfleck::transport {
@@ -34,28 +35,6 @@ class Plane {
  private:
   std::ptrdiff_t pitch_;
   std::vector<float> values_;
-};
-
-struct Weights {
-  float near, next, across, both;
-};
-
-// One row of a slab. `stride` of neighbouring cells, a compile-time 1 where it can be.
-template <class Stride>
-void sweep_row(int count, const float* in, const float* in_across, const Weights& w, const float* t,
-               float* cell, Stride stride, float* out) {
-  for (int i = 0; i < count; ++i) {
-    const float arriving =
-        w.near * in[i] + w.next * in[i + 1] + w.across * in_across[i] + w.both * in_across[i + 1];
-    const float source = cell[i * stride], pass = t[i * stride];
-    const float radiance = source + (arriving - source) * pass;
-    cell[i * stride] = radiance;
-    out[i] = source + (radiance - source) * pass;
-  }
-}
-
-struct UnitStride {
-  friend constexpr std::ptrdiff_t operator*(int i, UnitStride) { return i; }
 };
 
 class Sweeper {
@@ -134,12 +113,17 @@ class Sweeper {
       const std::ptrdiff_t first = slab * plan_.stride[static_cast<std::size_t>(plan_.axis)] +
                                    c * plan_.stride[static_cast<std::size_t>(plan_.column)];
       const float* in = before_.at(plan_.row_shift, c + plan_.column_shift);
+      const Row cells{.count = rows_,
+                      .in = in,
+                      .in_across = in + before_.pitch(),
+                      .weights = weights_,
+                      .pass = t + first,
+                      .cell = radiance + first,
+                      .out = after_.at(0, c)};
       if (stride == 1)
-        sweep_row(rows_, in, in + before_.pitch(), weights_, t + first, radiance + first, UnitStride{},
-                  after_.at(0, c));
+        sweep_row_(cells);
       else
-        sweep_row(rows_, in, in + before_.pitch(), weights_, t + first, radiance + first, stride,
-                  after_.at(0, c));
+        sweep_row_apart(cells, stride);
     }
   }
 
@@ -147,7 +131,8 @@ class Sweeper {
   const Inflow& inflow_;
   int rows_, columns_, slabs_;
   Plane before_, after_;
-  Weights weights_;
+  RowWeights weights_;
+  const SweepRow sweep_row_ = sweep_row_best();
 };
 
 }  // namespace

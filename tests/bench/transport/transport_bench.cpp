@@ -73,7 +73,8 @@ BENCHMARK(estimator)
 void one_sweep(benchmark::State& state) {
   const Forest forest = generated_crown({.leaves = 40000, .crown_lai = 5});
   const ForestIndex index(forest);
-  const transport::TransportScene scene = transport::transport_scene(forest, index, sky_and_sun(), 26, 0, {});
+  const transport::TransportScene scene =
+      transport::transport_scene(forest, index, transport::cubic_directions(26), {}, {});
   Vec3 towards(0);
   towards[static_cast<int>(state.range(0))] = 1;
   std::size_t direction = 0;
@@ -92,7 +93,8 @@ void one_order_of_scattering(benchmark::State& state) {
   const Forest forest = generated_crown({.leaves = 40000, .crown_lai = 5});
   const ForestIndex index(forest);
   const OpticsTable optics = near_infrared(forest);
-  const transport::TransportScene scene = transport::transport_scene(forest, index, sky_and_sun(), 26, 0, {});
+  const transport::TransportScene scene =
+      transport::transport_scene(forest, index, transport::cubic_directions(26), {}, {});
   const double face_m2 = std::pow(scene.field->layout().mean_cell_m(), 2);
   const transport::LeafScattering leaves(scene.contents, scene.lanes, scene.set.half(), face_m2,
                                          transport::leaf_bands(forest, optics, 0), 0.0);

@@ -163,8 +163,7 @@ TEST(Provenance, NamesMethodSettingsAndStages) {
   EXPECT_EQ(map.provenance.settings.at(0), (std::pair<std::string, std::string>("directions", "26")));
   std::vector<std::string> stages;
   for (const StageTime& t : map.provenance.times) stages.push_back(t.stage);
-  EXPECT_EQ(stages,
-            (std::vector<std::string>{"leaf-area grid", "sun", "sky sweeps", "sweeps", "leaf gather"}));
+  EXPECT_EQ(stages, (std::vector<std::string>{"leaf-area grid", "sun and sky", "sweeps", "leaf gather"}));
   EXPECT_FALSE(map.bands[0].has_budget);
   EXPECT_TRUE(map_of(generated_layer({.leaves = 1000}), both(1, 1)).bands[0].has_budget);
 }
@@ -178,7 +177,7 @@ TEST(Provenance, SaysWhereTheMethodIsWeak) {
   EXPECT_FALSE(mentions(notes(enough), "foliage elements"));
   EXPECT_FALSE(mentions(notes(enough), "leaf sides"));
   EXPECT_TRUE(mentions(notes(enough, {.cell_m = 0.1}), "smaller than 1.5 leaf sides"));  // side 0.102 m
-  EXPECT_TRUE(mentions(notes(enough, {.cell_m = 1e-4}), "memory limit"));
+  EXPECT_TRUE(mentions(notes(generated_crown({.leaves = 4000}), {.memory_limit_bytes = 1 << 20}), "memory"));
   EXPECT_TRUE(mentions(notes(enough, {.convergence = 1e-9, .max_iterations = 2}), "had not converged"));
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lighting/transport/sweep.h"
+#include "lighting/transport/sweep_row.h"
 #include "sim/base/random.h"
 
 namespace sunfleck::transport {
@@ -104,6 +105,42 @@ TEST(Sweep, HandsOnAroundRepeatingBorders) {
   sweep(plan_sweep(layout, {-1, 0, 0}), pass, NoInflow(), radiance, around, {});
   ASSERT_EQ(around.size(), 4u);
   for (const float leaving : around) EXPECT_NEAR(leaving, 1.0, 1e-5);
+}
+
+TEST(Row, FormsAgree) {
+  RandomStream random(4, 0, RandomPurpose::kTestScene);
+  for (const int count : {1, 3, 7, 8, 15, 16, 17, 33, 64, 100}) {
+    const auto n = static_cast<std::size_t>(count);
+    std::vector<float> in(n + 1), across(n + 1), pass(n), plain(n), out(n), best_out(n), apart_out(n);
+    for (auto* values : {&in, &across, &pass, &plain})
+      for (float& x : *values) x = static_cast<float>(random.uniform());
+    std::vector<float> best(plain), apart(3 * n), apart_pass(3 * n);
+    for (std::size_t i = 0; i < n; ++i) {
+      apart[3 * i] = plain[i];
+      apart_pass[3 * i] = pass[i];
+    }
+    Row row{.count = count,
+            .in = in.data(),
+            .in_across = across.data(),
+            .weights = {0.2f, 0.3f, 0.1f, 0.4f},
+            .pass = pass.data(),
+            .cell = plain.data(),
+            .out = out.data()};
+    sweep_row_plain(row);
+    row.cell = best.data();
+    row.out = best_out.data();
+    sweep_row_best()(row);
+    row.cell = apart.data();
+    row.pass = apart_pass.data();
+    row.out = apart_out.data();
+    sweep_row_apart(row, 3);
+    for (std::size_t i = 0; i < n; ++i) {  // a few roundings of numbers up to 1
+      ASSERT_NEAR(plain[i], best[i], 3e-7f);
+      ASSERT_NEAR(out[i], best_out[i], 3e-7f);
+      ASSERT_NEAR(plain[i], apart[3 * i], 3e-7f);
+      ASSERT_NEAR(out[i], apart_out[i], 3e-7f);
+    }
+  }
 }
 
 TEST(Plan, StepsAlongTheAxisWithTheFewestCellsAside) {
