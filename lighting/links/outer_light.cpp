@@ -12,10 +12,10 @@ struct Outer {
   Outer operator+(const Outer& o) const { return {sky + o.sky, beyond + o.beyond}; }
 };
 
-Outer outer_of(const LobeLinks& links, std::uint32_t ground_beyond, const Illumination& light) {
+Outer outer_of(const LobeLinks& links, std::uint32_t ground_beyond, const SkyRadiance& radiance) {
   Outer sum;
   for (const std::uint32_t end : links.sky)  // cosine-distributed: irradiance is pi times the mean radiance
-    sum.sky += kPi * relative_sky_radiance(light.sky, sky_direction(end).z);
+    sum.sky += kPi * radiance.radiance(sky_direction(end));
   for (const std::uint32_t end : links.dark_ground) sum.beyond += end == ground_beyond ? 1.0 : 0.0;
   return {links.per_sky * sum.sky, links.per_hit * sum.beyond};
 }
@@ -28,7 +28,8 @@ OuterLight outer_light(const LinkTable& table, const trace::Receivers& receivers
   OuterLight outer;
   outer.sky.resize(receivers.face_count());
   outer.beyond.resize(receivers.face_count());
-  const auto of = [&](const LobeLinks& l) { return outer_of(l, receivers.ground_beyond(), light); };
+  const SkyRadiance radiance = sky_radiance(light);
+  const auto of = [&](const LobeLinks& l) { return outer_of(l, receivers.ground_beyond(), radiance); };
   const auto set = [&](std::size_t face, const Outer& o) {
     outer.sky[face] = static_cast<float>(o.sky);
     outer.beyond[face] = static_cast<float>(o.beyond);

@@ -108,6 +108,27 @@ TEST(LinksScenes, UprightLeafUnderTwoSkies) {
   }
 }
 
+// A clear Perez sky is brighter around the sun: an upright leaf gets more on the side of it. Midpoint sums
+// over 400 x 800 directions; the looked-up ones err by chance.
+TEST(LinksScenes, SkyThatIsNotRound) {
+  const Forest forest = forest_of({quad({0, 0, 1}, {0, 0.005, 0}, {0, 0, 0.005})});  // front towards +x
+  Illumination light = sunlight({1, 0.3, 0.8}, 0, 1);
+  light.sky = SkyModel::kPerez;
+  light.sky_clearness = 4;
+  const SkyRadiance sky = sky_radiance(light);
+  double front = 0.0, back = 0.0;
+  for (int i = 0; i < 400 * 800; ++i) {
+    const double z = (i / 800 + 0.5) / 400, turn = 2 * kPi * (i % 800 + 0.5) / 800,
+                 across = std::sqrt(1 - z * z);
+    const Vec3 d(across * std::cos(turn), across * std::sin(turn), z);
+    (d.x > 0 ? front : back) += std::abs(d.x) * sky.radiance(d) * 2 * kPi / (400 * 800);
+  }
+  ASSERT_GT(front, 1.3 * back);
+  const ElementLight leaf = links_light(forest, 0, light, {.links_per_face = 256}).bands[0].elements[0];
+  EXPECT_NEAR(leaf.front.sky_w_m2, front, 0.02 * front);
+  EXPECT_NEAR(leaf.back.sky_w_m2, back, 0.02 * back);
+}
+
 // Leaves in one place: nobody knows which is on top, but no light is made.
 TEST(LinksScenes, CoincidentLeaves) {
   std::vector<FoliageElement> leaves(5, quad({0, 0, 1}, {0.1, 0, 0}, {0, 0.1, 0}));
