@@ -37,10 +37,12 @@ Errors measure(const Forest& forest, int links, int truth_rays) {
 }
 
 // A dense crown (LAI 7) of dark and of bright leaves, 64 links: measured 7.1 and 2.5 %.
+// Means vary by 0.2 % between seeds of the links and by 0.2 % between means of two references: 1 % is more
+// than three of that.
 TEST(LinksReference, DarkAndBrightLeaves) {
   for (const auto& [albedo, most] : {std::pair{0.15, 0.085}, {0.9, 0.035}}) {
     const Errors e = measure(small_crown(1000, {albedo * 0.6, albedo * 0.4}), 64, 100);
-    EXPECT_LT(std::abs(e.bias), 0.005);
+    EXPECT_LT(std::abs(e.bias), 0.01) << albedo;
     EXPECT_LT(e.rms, most) << albedo;
   }
 }
