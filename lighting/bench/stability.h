@@ -45,6 +45,10 @@ std::vector<SceneStability> run_stability(const std::vector<StabilityScene>& sce
 // names ending in ", as printed" are the papers' own expressions, which lose digits or numbers where ours do
 // not.
 std::vector<StabilityRow> envelope_form_stability();
+// Those of the slab methods (lighting/slab/stability.h) in the same shape.
+std::vector<StabilityRow> slab_form_rows();
+// Both.
+std::vector<StabilityRow> closed_form_rows();
 
 // For people: what failed by name, the rest as counts per method; then the closed forms.
 std::string stability_table(const std::vector<SceneStability>& scenes,

@@ -10,6 +10,10 @@
 #include "lighting/envelope/closed_forms.h"
 #include "sim/base/contract.h"
 
+// Builds for processors without 32-byte registers split the vectors; no function here is called from another
+// file with one, so how they would be passed does not matter.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
 namespace sunfleck::envelope {
 
 namespace {

@@ -45,6 +45,7 @@ void state_settings(Provenance& provenance, const PreparedParts& parts) {
                          {"ground", to_string(o.ground)},
                          {"weights", to_string(o.weights)},
                          {"own_leaf", to_string(o.own_leaf)},
+                         {"border", to_string(o.border)},
                          {"cell_m", number(parts.field->layout().mean_cell_m())},
                          {"cells", std::to_string(parts.field->layout().cell_count())}};
 }

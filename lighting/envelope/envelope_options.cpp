@@ -30,6 +30,11 @@ std::string to_string(EnvelopeWeights value) { return value == EnvelopeWeights::
 
 std::string to_string(EnvelopeOwnLeaf value) { return value == EnvelopeOwnLeaf::kKept ? "kept" : "removed"; }
 
+std::string to_string(EnvelopeBorder value) {
+  if (value == EnvelopeBorder::kByScene) return "by_scene";
+  return value == EnvelopeBorder::kRound ? "round" : "level";
+}
+
 void check(const EnvelopeFullOptions& options) {
   if (std::ranges::find(envelope::kSectorCounts, options.directions) == std::end(envelope::kSectorCounts))
     throw_invalid("envelope_full.directions",

@@ -29,6 +29,13 @@ enum class EnvelopeWeights {
   kCosine  // scaled per leaf so that light that is the same from everywhere counts exactly
 };
 
+// How the depth towards one direction changes on the way along another: by the border that is assumed there.
+enum class EnvelopeBorder {
+  kRound,   // square to each direction, as published (Eq. 22): by the cosine between the two
+  kLevel,   // a plane along the ground: exact in even layers
+  kByScene  // level where the scene repeats for ever, else round
+};
+
 enum class EnvelopeOwnLeaf {
   kKept,    // a leaf shades itself like its neighbours do
   kRemoved  // its own part of its cell is taken out
@@ -42,6 +49,7 @@ struct EnvelopeFullOptions {
   EnvelopeGround ground = EnvelopeGround::kShaded;
   EnvelopeWeights weights = EnvelopeWeights::kCosine;
   EnvelopeOwnLeaf own_leaf = EnvelopeOwnLeaf::kRemoved;
+  EnvelopeBorder border = EnvelopeBorder::kByScene;
   double cell_m = 0;  // of the leaf-area grid; 0: clamp(extent / 32, 2 side, 4 side)
 };
 
@@ -51,6 +59,8 @@ std::string to_string(EnvelopeBounces value);  // sun_once, once, all
 std::string to_string(EnvelopeGround value);   // fully_lit, shaded
 std::string to_string(EnvelopeWeights value);  // plain, cosine
 std::string to_string(EnvelopeOwnLeaf value);  // kept, removed
+
+std::string to_string(EnvelopeBorder value);  // round, level, by_scene
 
 // Throws Error(kInvalidInput) naming "envelope_full.<field>".
 void check(const EnvelopeFullOptions& options);

@@ -34,25 +34,28 @@ double mean_bark_reflectance(const Prototype& prototype, PrototypeId id, const O
   return area > 0.0 ? reflected / area : 0.0;
 }
 
-// c_j of Eq. 25 for an interpolated sun, the exact cosine for a marched one.
-std::vector<double> sun_cosines(const Sources& s, const SectorSet& set) {
-  std::vector<double> cosines(set.count());
-  for (std::size_t j = 0; j < set.count(); ++j)
-    cosines[j] = s.sun_weights.empty() ? glm::dot(set.to_source[j], s.to_sun)
-                                       : approach_towards<double>(set.to_source, s.sun_weights, j);
-  return cosines;
+// How fast the way out along `light` shortens per way along `sector`: 1 - by one metre per metre - where both
+// are the same.
+double shortening(const Vec3& sector, const Vec3& light, const std::optional<Vec3>& level_normal) {
+  if (!level_normal) return glm::dot(sector, light);  // Eq. 22
+  const double rise = glm::dot(light, *level_normal);
+  return std::abs(rise) > 1e-9 ? glm::dot(sector, *level_normal) / rise : glm::dot(sector, light);
 }
 
 void set_approaches(PrototypeMedium& medium, const Scattering& scattering, const Sources& s,
                     const SectorSet& set) {
   medium.approach.assign(set.count() * s.row, 0.0f);
   medium.sun_approach.assign(s.row, 0.0f);
-  const std::vector<double> to_sun = s.sun ? sun_cosines(s, set) : std::vector<double>(set.count());
   for (std::size_t j = 0; j < set.count(); ++j) {
+    const Vec3& along = set.to_source[j];
     for (std::size_t k = 0; k < set.count(); ++k)
-      medium.approach[j * s.row + k] = approach_of(glm::dot(set.to_source[j], set.to_source[k]),
+      medium.approach[j * s.row + k] = approach_of(shortening(along, set.to_source[k], s.level_normal),
                                                    scattering.projection[k], scattering.projection[j]);
-    medium.sun_approach[j] = approach_of(to_sun[j], scattering.sun_projection, scattering.projection[j]);
+    if (!s.sun) continue;
+    // c_j of Eq. 25 for an interpolated sun.
+    const double to_sun = s.sun_weights.empty() ? shortening(along, s.to_sun, s.level_normal)
+                                                : approach_towards<double>(set.to_source, s.sun_weights, j);
+    medium.sun_approach[j] = approach_of(to_sun, scattering.sun_projection, scattering.projection[j]);
   }
 }
 
@@ -116,6 +119,9 @@ Sources sources(const Forest& forest, const OpticsTable& optics, const Illuminat
   s.sun = sun;
   s.to_sun = light.to_sun;
   s.row = padded(parts.set.count());
+  const EnvelopeBorder border = parts.options.border;
+  if (border == EnvelopeBorder::kLevel || (border == EnvelopeBorder::kByScene && forest.period))
+    s.level_normal = forest.terrain.normal();
   if (sun) set_sun(s, parts, control);
   const SectorSky sky = sector_sky(parts.set, light.sky, forest.terrain.normal());
   for (const double share : sky.ground_share) s.ground_share.push_back(static_cast<float>(share));

@@ -37,6 +37,7 @@ struct Sources {
   std::optional<ExtinctionGrid> sun_grid;  // where the sun is marched and above the ground
   std::vector<double> sun_weights;         // where it is interpolated
   std::vector<float> ground_share;         // [k] of a sector
+  std::optional<Vec3> level_normal;        // of the border, where it is level
   std::size_t row = 0;                     // floats of a row
   std::vector<PrototypeMedium> media;      // by prototype
   std::vector<BandSource> bands;

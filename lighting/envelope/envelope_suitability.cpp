@@ -92,7 +92,7 @@ EnvelopeCondition light_spread(const Forest& forest, const OpticsTable& optics, 
           .met = spread <= kMostSpread,
           .consequence =
               "in a closed canopy of bright leaves scattered light spreads further than the local "
-              "bounces take it: layers may be off by 15 to 25 %; method 'grid' suits it"};
+              "bounces take it: layers may be off by 10 to 15 %; method 'grid' suits it"};
 }
 
 }  // namespace

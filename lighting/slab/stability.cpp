@@ -47,10 +47,10 @@ class Tally {
       row_.where += text;
     }
   }
-  const StabilityRow& row() const { return row_; }
+  const SlabStabilityRow& row() const { return row_; }
 
  private:
-  StabilityRow row_;
+  SlabStabilityRow row_;
 };
 
 double relative(double value, long double truth) {
@@ -58,7 +58,7 @@ double relative(double value, long double truth) {
   return static_cast<double>(std::abs(static_cast<long double>(value) - truth) / truth);
 }
 
-// Light of a slab, see StabilityRow::worst_error.
+// Light of a slab, see SlabStabilityRow::worst_error.
 double slab_error(double value, long double truth, double before, double behind) {
   const long double thickness = static_cast<long double>(before) + static_cast<long double>(behind);
   const long double least = thickness < 0.01L ? 0.1L * thickness : 0.0L;
@@ -87,7 +87,7 @@ SlabMedium<Real> cast(const SlabMedium<double>& m) {
           static_cast<Real>(m.ground_albedo)};
 }
 
-void spp_rows(std::vector<StabilityRow>& rows) {
+void spp_rows(std::vector<SlabStabilityRow>& rows) {
   Tally d("spp", "double", 5e-14), f("spp", "float", 5e-5), r("spp", "float rows", 5e-5);
   Tally pd("spp", "printed double", 0.0), pf("spp", "printed float", 0.0);
   for_each_slab([&](double before, double behind, const SlabMedium<double>& m) {
@@ -119,7 +119,7 @@ void spp_rows(std::vector<StabilityRow>& rows) {
   for (const Tally* t : {&d, &f, &r, &pd, &pf}) rows.push_back(t->row());
 }
 
-void spp_h_rows(std::vector<StabilityRow>& rows) {
+void spp_h_rows(std::vector<SlabStabilityRow>& rows) {
   Tally d("spp_h", "double", 1e-11), hard("spp_h, extreme", "double", 1e-6);
   Tally r("spp_h", "float rows", 2e-7), p("spp_h", "printed double", 0.0);
   for_each_slab([&](double before, double behind, const SlabMedium<double>& slab) {
@@ -145,7 +145,7 @@ void spp_h_rows(std::vector<StabilityRow>& rows) {
   for (const Tally* t : {&d, &hard, &r, &p}) rows.push_back(t->row());
 }
 
-void compensation_rows_of(std::vector<StabilityRow>& rows) {
+void compensation_rows_of(std::vector<SlabStabilityRow>& rows) {
   Tally d("compensation", "double", 1e-14), f("compensation", "float", 5e-6),
       r("compensation", "float rows", 5e-6);
   Tally pd("compensation", "printed double", 0.0), pf("compensation", "printed float", 0.0);
@@ -203,7 +203,7 @@ long double refined_truth(double before, double behind, const SlabMedium<double>
          (4.0L * static_cast<long double>(kPi));
 }
 
-void refined_rows(std::vector<StabilityRow>& rows) {
+void refined_rows(std::vector<SlabStabilityRow>& rows) {
   Tally d("refined", "double", 1e-11), p("refined", "printed double", 0.0);
   const double isotropic = 1.0 / (4.0 * kPi);
   for (const double before : {1e-6, 0.1, 1.0, 10.0, 300.0, 1e4})
@@ -225,8 +225,8 @@ void refined_rows(std::vector<StabilityRow>& rows) {
 
 }  // namespace
 
-std::vector<StabilityRow> closed_form_stability() {
-  std::vector<StabilityRow> rows;
+std::vector<SlabStabilityRow> slab_form_stability() {
+  std::vector<SlabStabilityRow> rows;
   spp_rows(rows);
   spp_h_rows(rows);
   compensation_rows_of(rows);

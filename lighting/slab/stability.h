@@ -9,7 +9,7 @@
 
 namespace sunfleck {
 
-struct StabilityRow {
+struct SlabStabilityRow {
   std::string form;  // "spp", "spp_h", "compensation", "refined"
   std::string
       precision;  // "double", "float", "float rows": the vector code; "printed double", "printed float"
@@ -28,6 +28,6 @@ struct StabilityRow {
   bool holds() const { return printed || (not_finite == 0 && worst_error <= allowed_error); }
 };
 
-std::vector<StabilityRow> closed_form_stability();
+std::vector<SlabStabilityRow> slab_form_stability();
 
 }  // namespace sunfleck

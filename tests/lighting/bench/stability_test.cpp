@@ -37,6 +37,22 @@ TEST(PrintedForms, LoseWhatOursKeep) {
   EXPECT_EQ(printed, 12u);  // six in each precision: else this test has lost its subject
 }
 
+TEST(SlabForms, StandBesideTheirPrintedTwins) {
+  std::size_t ours = 0, printed = 0, lost = 0;
+  for (const StabilityRow& row : slab_form_rows()) {
+    if (is_printed(row)) {
+      ++printed;
+      lost += row.not_finite > 0 || row.worst_relative_error > 1e-2;
+    } else {
+      ++ours;
+      EXPECT_EQ(row.not_finite, 0u) << row.form << ", " << row.precision;
+    }
+  }
+  EXPECT_GE(ours, 4u);
+  EXPECT_GE(printed, 1u);
+  EXPECT_GT(lost, 0u);
+}
+
 // Differences that are known and said so elsewhere: `auto` corrects totals by a regression and puts what it
 // adds under scattered light, half on either face, so that the direct light of a single leaf is not where it
 // belongs.

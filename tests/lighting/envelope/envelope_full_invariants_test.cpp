@@ -39,6 +39,7 @@ std::vector<Named> every_correction() {
   with("once", [](auto& o) { o.bounces = EnvelopeBounces::kOnce; });
   with("fully_lit", [](auto& o) { o.ground = EnvelopeGround::kFullyLit; });
   with("plain_weights", [](auto& o) { o.weights = EnvelopeWeights::kPlain; });
+  with("level_border", [](auto& o) { o.border = EnvelopeBorder::kLevel; });
   with("own_leaf_kept", [](auto& o) { o.own_leaf = EnvelopeOwnLeaf::kKept; });
   return all;
 }
@@ -125,7 +126,7 @@ TEST_P(FullInvariants, KeepsTheCommonOnesAndSaysWhatItDid) {
   const LightMap light = map(crown, light_of(kSun, 500, 100));
   EXPECT_EQ(find_violation(light, ForestIndex(crown)), "");
   EXPECT_EQ(light.provenance.method, "envelope_full");
-  EXPECT_EQ(light.provenance.settings.size(), 9u);
+  EXPECT_EQ(light.provenance.settings.size(), 10u);
 }
 
 TEST(Prepared, ServesAnySunAndSky) {
