@@ -97,21 +97,29 @@ class PartGather {
       depths_of(part.cover, lanes_, cosine, depth);
       for (std::size_t j = 0; j < kLanes; ++j) cover[j] = std::fabs(cosine[j]);
     }
-    const CellRadiance between = mean_of(corners);
-    const CellRadiance& own_cell = radiance_[corners.own_cell];
+    WideLanes near, far;
+    mean_of(corners, near, far);
     // What reaches the front travels as what the part sends off its back.
     const float sent_front = given.front / static_cast<float>(kPi),
                 sent_back = given.back / static_cast<float>(kPi);
-    for (std::size_t j = 0; j < kLanes; ++j) {
-      const bool on_front = cosine[j] >= 0.0f;
-      const float own = corners.own_weight * own_part(depth[j], lanes_.step_cells[j]);
-      const float near =
-          without_own(between.near[j], own_cell.near[j], own, on_front ? sent_back : sent_front);
-      const float far = without_own(between.far[j], own_cell.far[j], own, on_front ? sent_front : sent_back);
-      weight[j] = lanes_.solid_angle_sr[j] * cover[j];
-      front[j] = weight[j] * (on_front ? near : far);
-      back[j] = weight[j] * (on_front ? far : near);
-    }
+    WideLanes cos, own, covered, solid_angle, own_near, own_far;
+    for (std::size_t j = 0; j < kLanes; ++j)
+      depth[j] = corners.own_weight * own_part(depth[j], lanes_.step_cells[j]);
+    load(own, depth);
+    load(cos, cosine);
+    load(covered, cover);
+    load(solid_angle, lanes_.solid_angle_sr);
+    load(own_near, radiance_[corners.own_cell].near);
+    load(own_far, radiance_[corners.own_cell].far);
+    const WideLanes nothing = {}, off_front = nothing + sent_front, off_back = nothing + sent_back;
+    near += own * (own_near - (cos >= nothing ? off_back : off_front));
+    far += own * (own_far - (cos >= nothing ? off_front : off_back));
+    near = near > nothing ? near : nothing;
+    far = far > nothing ? far : nothing;
+    const WideLanes weights = solid_angle * covered;
+    store(weight, weights);
+    store(front, weights * (cos >= nothing ? near : far));
+    store(back, weights * (cos >= nothing ? far : near));
     const float per_radiance = static_cast<float>(kPi) / sum_of(weight);
     const float on_front = per_radiance * sum_of(front), on_back = per_radiance * sum_of(back);
     if (shoot == nullptr) return {on_front, on_back};
@@ -120,18 +128,16 @@ class PartGather {
   }
 
  private:
-  static float without_own(float radiance, float in_own_cell, float own, float own_radiance) {
-    return std::max(0.0f, radiance + own * (in_own_cell - own_radiance));
-  }
-
-  CellRadiance mean_of(const Corners& corners) const {
-    CellRadiance sum;
+  void mean_of(const Corners& corners, WideLanes& near, WideLanes& far) const {
+    near = far = WideLanes{};
+    WideLanes of_corner;
     for (std::size_t k = 0; k < 8; ++k) {
       const CellRadiance& corner = radiance_[corners.cell[k]];
-      for (std::size_t j = 0; j < kLanes; ++j) sum.near[j] += corners.weight[k] * corner.near[j];
-      for (std::size_t j = 0; j < kLanes; ++j) sum.far[j] += corners.weight[k] * corner.far[j];
+      load(of_corner, corner.near);
+      near += corners.weight[k] * of_corner;
+      load(of_corner, corner.far);
+      far += corners.weight[k] * of_corner;
     }
-    return sum;
   }
 
   const TransportScene& scene_;

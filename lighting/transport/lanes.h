@@ -2,10 +2,16 @@
 #pragma once
 
 #include <cmath>
+#include <cstring>
 
 #include "lighting/transport/cell_contents.h"
 
 namespace sunfleck::transport {
+
+// Lanes in one wide register or several narrow ones; arithmetic lane by lane.
+typedef float WideLanes __attribute__((vector_size(sizeof(Lanes))));
+inline void load(WideLanes& wide, const Lanes& lanes) { std::memcpy(&wide, lanes.data(), sizeof wide); }
+inline void store(Lanes& lanes, const WideLanes& wide) { std::memcpy(lanes.data(), &wide, sizeof wide); }
 
 struct alignas(64) DirectionLanes {
   alignas(64) Lanes x{}, y{}, z{}, solid_angle_sr{};
