@@ -8,10 +8,15 @@
 
 namespace sunfleck::transport {
 
-// Lanes in one wide register or several narrow ones; arithmetic lane by lane.
-typedef float WideLanes __attribute__((vector_size(sizeof(Lanes))));
-inline void load(WideLanes& wide, const Lanes& lanes) { std::memcpy(&wide, lanes.data(), sizeof wide); }
-inline void store(Lanes& lanes, const WideLanes& wide) { std::memcpy(lanes.data(), &wide, sizeof wide); }
+// Some lanes in a register of every machine we run on; arithmetic lane by lane.
+inline constexpr std::size_t kRegisterLanes = 8;
+typedef float RegisterLanes __attribute__((vector_size(kRegisterLanes * sizeof(float))));
+inline void load(RegisterLanes& values, const Lanes& lanes, std::size_t first) {
+  std::memcpy(&values, lanes.data() + first, sizeof values);
+}
+inline void store(Lanes& lanes, std::size_t first, const RegisterLanes& values) {
+  std::memcpy(lanes.data() + first, &values, sizeof values);
+}
 
 struct alignas(64) DirectionLanes {
   alignas(64) Lanes x{}, y{}, z{}, solid_angle_sr{};

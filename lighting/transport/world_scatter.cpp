@@ -7,6 +7,9 @@ namespace sunfleck::transport {
 
 namespace {
 
+// Directions of half a set, in one wide register or several narrow ones.
+typedef float WideLanes __attribute__((vector_size(sizeof(Lanes))));
+
 // Faces alike: the sum of a pair of directions and its difference scatter each by itself, half the work.
 [[gnu::always_inline]] inline void add_alike(const WorldEntry& entry, const KindKernel& kernel,
                                              const Lanes& sum, const Lanes& difference, float sun_w_m2,
