@@ -17,32 +17,35 @@ struct Corners {
   float own_weight = 0;
 };
 
+// Two neighbours along an axis: what they add to the flat index, and their weights.
 struct Between {
-  int low, high;
-  double part;  // of the higher
+  std::array<std::size_t, 2> offset;
+  std::array<float, 2> weight;
 };
 
-Between between_centres(const GridLayout& layout, int axis, double coordinate_m) {
+Between between_centres(const GridLayout& layout, int axis, double coordinate_m, std::size_t stride) {
   const int n = layout.cells[static_cast<std::size_t>(axis)];
   const double at = (coordinate_m - layout.lo_m[axis]) / layout.cell_m[axis] - 0.5;
   const double floor = std::floor(at);
   const int low = static_cast<int>(std::clamp(floor, -1.0, static_cast<double>(n)));
+  const bool wraps = layout.wraps_xy && axis < 2;
   const auto inside = [&](int i) {
-    return layout.wraps_xy && axis < 2 ? (i + n) % n : std::clamp(i, 0, n - 1);
+    return static_cast<std::size_t>(wraps ? (i + n) % n : std::clamp(i, 0, n - 1)) * stride;
   };
-  return {inside(low), inside(low + 1), std::clamp(at - floor, 0.0, 1.0)};
+  const auto part = static_cast<float>(std::clamp(at - floor, 0.0, 1.0));
+  return {{inside(low), inside(low + 1)}, {1.0f - part, part}};
 }
 
 Corners corners_around(const GridLayout& layout, std::uint32_t own_cell, const Vec3& point_m) {
-  const Between x = between_centres(layout, 0, point_m.x), y = between_centres(layout, 1, point_m.y),
-                z = between_centres(layout, 2, point_m.z);
+  const auto row = static_cast<std::size_t>(layout.cells[0]);
+  const Between x = between_centres(layout, 0, point_m.x, 1), y = between_centres(layout, 1, point_m.y, row),
+                z = between_centres(layout, 2, point_m.z, row * static_cast<std::size_t>(layout.cells[1]));
   Corners corners;
   corners.own_cell = own_cell;
   for (std::size_t k = 0; k < 8; ++k) {
-    const bool hx = k & 1, hy = k & 2, hz = k & 4;
-    corners.cell[k] = layout.flat({hx ? x.high : x.low, hy ? y.high : y.low, hz ? z.high : z.low});
-    corners.weight[k] = static_cast<float>((hx ? x.part : 1 - x.part) * (hy ? y.part : 1 - y.part) *
-                                           (hz ? z.part : 1 - z.part));
+    const std::size_t i = k & 1, j = k >> 1 & 1, l = k >> 2;
+    corners.cell[k] = x.offset[i] + y.offset[j] + z.offset[l];
+    corners.weight[k] = x.weight[i] * y.weight[j] * z.weight[l];
     if (corners.cell[k] == own_cell) corners.own_weight += corners.weight[k];
   }
   return corners;
@@ -97,20 +100,30 @@ class PartGather {
       depths_of(part.cover, lanes_, cosine, depth);
       for (std::size_t j = 0; j < kLanes; ++j) cover[j] = std::fabs(cosine[j]);
     }
-    const CellRadiance between = mean_of(corners);
-    const CellRadiance& own_cell = radiance_[corners.own_cell];
     // What reaches the front travels as what the part sends off its back.
     const float sent_front = given.front / static_cast<float>(kPi),
                 sent_back = given.back / static_cast<float>(kPi);
-    for (std::size_t j = 0; j < kLanes; ++j) {
-      const bool on_front = cosine[j] >= 0.0f;
-      const float own = corners.own_weight * own_part(depth[j], lanes_.step_cells[j]);
-      const float near =
-          without_own(between.near[j], own_cell.near[j], own, on_front ? sent_back : sent_front);
-      const float far = without_own(between.far[j], own_cell.far[j], own, on_front ? sent_front : sent_back);
-      weight[j] = lanes_.solid_angle_sr[j] * cover[j];
-      front[j] = weight[j] * (on_front ? near : far);
-      back[j] = weight[j] * (on_front ? far : near);
+    for (std::size_t j = 0; j < kLanes; ++j)
+      depth[j] = corners.own_weight * own_part(depth[j], lanes_.step_cells[j]);
+    const CellRadiance& own_cell = radiance_[corners.own_cell];
+    for (std::size_t first = 0; first < kLanes; first += kRegisterLanes) {
+      RegisterLanes near, far, cos, own, covered, solid_angle, own_near, own_far;
+      mean_of(corners, first, near, far);
+      load(own, depth, first);
+      load(cos, cosine, first);
+      load(covered, cover, first);
+      load(solid_angle, lanes_.solid_angle_sr, first);
+      load(own_near, own_cell.near, first);
+      load(own_far, own_cell.far, first);
+      const RegisterLanes nothing = {}, off_front = nothing + sent_front, off_back = nothing + sent_back;
+      near += own * (own_near - (cos >= nothing ? off_back : off_front));
+      far += own * (own_far - (cos >= nothing ? off_front : off_back));
+      near = near > nothing ? near : nothing;
+      far = far > nothing ? far : nothing;
+      const RegisterLanes weights = solid_angle * covered;
+      store(weight, first, weights);
+      store(front, first, weights * (cos >= nothing ? near : far));
+      store(back, first, weights * (cos >= nothing ? far : near));
     }
     const float per_radiance = static_cast<float>(kPi) / sum_of(weight);
     const float on_front = per_radiance * sum_of(front), on_back = per_radiance * sum_of(back);
@@ -120,18 +133,16 @@ class PartGather {
   }
 
  private:
-  static float without_own(float radiance, float in_own_cell, float own, float own_radiance) {
-    return std::max(0.0f, radiance + own * (in_own_cell - own_radiance));
-  }
-
-  CellRadiance mean_of(const Corners& corners) const {
-    CellRadiance sum;
+  void mean_of(const Corners& corners, std::size_t first, RegisterLanes& near, RegisterLanes& far) const {
+    near = far = RegisterLanes{};
+    RegisterLanes of_corner;
     for (std::size_t k = 0; k < 8; ++k) {
       const CellRadiance& corner = radiance_[corners.cell[k]];
-      for (std::size_t j = 0; j < kLanes; ++j) sum.near[j] += corners.weight[k] * corner.near[j];
-      for (std::size_t j = 0; j < kLanes; ++j) sum.far[j] += corners.weight[k] * corner.far[j];
+      load(of_corner, corner.near, first);
+      near += corners.weight[k] * of_corner;
+      load(of_corner, corner.far, first);
+      far += corners.weight[k] * of_corner;
     }
-    return sum;
   }
 
   const TransportScene& scene_;
@@ -152,7 +163,7 @@ std::vector<FacePair> light_of_parts(const TransportScene& scene, std::span<cons
         const std::uint32_t e = contents.parts[p].element;
         const bool whole = contents.first_part_of_element[e + 1] - contents.first_part_of_element[e] == 1;
         const Corners corners =
-            whole ? corners_around(scene.field->layout(), cell, Vec3(scene.field->elements()[e].centre_m))
+            whole ? corners_around(scene.layout, cell, Vec3(scene.field->elements()[e].centre_m))
                   : only_cell(cell);
         light[p] = parts.light_of(p, corners);
       }

@@ -2,10 +2,21 @@
 #pragma once
 
 #include <cmath>
+#include <cstring>
 
 #include "lighting/transport/cell_contents.h"
 
 namespace sunfleck::transport {
+
+// Some lanes in a register of every machine we run on; arithmetic lane by lane.
+inline constexpr std::size_t kRegisterLanes = 8;
+typedef float RegisterLanes __attribute__((vector_size(kRegisterLanes * sizeof(float))));
+inline void load(RegisterLanes& values, const Lanes& lanes, std::size_t first) {
+  std::memcpy(&values, lanes.data() + first, sizeof values);
+}
+inline void store(Lanes& lanes, std::size_t first, const RegisterLanes& values) {
+  std::memcpy(lanes.data() + first, &values, sizeof values);
+}
 
 struct alignas(64) DirectionLanes {
   alignas(64) Lanes x{}, y{}, z{}, solid_angle_sr{};

@@ -8,20 +8,20 @@ namespace sunfleck::transport {
 namespace {
 
 // Directions of half a set, in one wide register or several narrow ones.
-typedef float Wide __attribute__((vector_size(sizeof(Lanes))));
+typedef float WideLanes __attribute__((vector_size(sizeof(Lanes))));
 
 // Faces alike: the sum of a pair of directions and its difference scatter each by itself, half the work.
 [[gnu::always_inline]] inline void add_alike(const WorldEntry& entry, const KindKernel& kernel,
                                              const Lanes& sum, const Lanes& difference, float sun_w_m2,
-                                             Wide& near, Wide& far) {
-  Wide even = {}, odd = {}, column;
+                                             WideLanes& near, WideLanes& far) {
+  WideLanes even = {}, odd = {}, column;
   for (std::size_t k = 0; k < kMostHalf; ++k) {
     std::memcpy(&column, kernel.even[k].data(), sizeof column);
     even += sum[k] * column;
     std::memcpy(&column, kernel.odd[k].data(), sizeof column);
     odd += difference[k] * column;
   }
-  Wide sun_near, sun_far;
+  WideLanes sun_near, sun_far;
   std::memcpy(&sun_near, kernel.sun_source.data(), sizeof sun_near);
   std::memcpy(&sun_far, kernel.sun_source.data() + kLanes, sizeof sun_far);
   near += entry.area_m2 * (even + odd + sun_w_m2 * sun_near);
@@ -29,9 +29,9 @@ typedef float Wide __attribute__((vector_size(sizeof(Lanes))));
 }
 
 [[gnu::always_inline]] inline void add_unlike(const WorldEntry& entry, const KindKernel& kernel,
-                                              const BothLanes& radiance, float sun_w_m2, Wide& near,
-                                              Wide& far) {
-  Wide sum_near, sum_far, column;
+                                              const BothLanes& radiance, float sun_w_m2, WideLanes& near,
+                                              WideLanes& far) {
+  WideLanes sum_near, sum_far, column;
   std::memcpy(&sum_near, kernel.sun_source.data(), sizeof sum_near);
   std::memcpy(&sum_far, kernel.sun_source.data() + kLanes, sizeof sum_far);
   sum_near *= sun_w_m2;
@@ -55,7 +55,7 @@ typedef float Wide __attribute__((vector_size(sizeof(Lanes))));
     sum[k] = radiance[k] + radiance[kLanes + k];
     difference[k] = radiance[k] - radiance[kLanes + k];
   }
-  Wide near, far;
+  WideLanes near, far;
   std::memcpy(&near, source.data(), sizeof near);
   std::memcpy(&far, source.data() + kLanes, sizeof far);
   for (const WorldEntry& entry : entries) {
