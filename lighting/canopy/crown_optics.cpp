@@ -4,10 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
+#include "lighting/canopy/crown_rays.h"
 #include "lighting/canopy/world_sweep.h"
-#include "lighting/trace/ray_scene.h"
 #include "sim/base/parallel.h"
 
 namespace sunfleck {
@@ -28,40 +27,6 @@ double between(const std::vector<double>& x, const std::vector<double>& y, doubl
   return y[i - 1] + part * (y[i] - y[i - 1]);
 }
 
-Forest single_tree(const Forest& forest, std::size_t prototype) {
-  Forest alone;
-  alone.materials = forest.materials;
-  alone.prototypes = {forest.prototypes[prototype]};
-  alone.instances.resize(1);
-  return alone;
-}
-
-// Share of an even pattern of rays, over the rectangle across the light that holds the crown's box, that meets
-// the crown.
-double traced_m2(const RayScene& scene, const Box& box, const Vec3& to_source, int rays,
-                 const RunControl& control) {
-  constexpr double kStepX = 0.7548776662466927, kStepY = 0.5698402909980532;  // see drop_rays.cpp
-  const Basis across = basis_around(to_source);
-  Vec3 lo(std::numeric_limits<double>::infinity()), hi = -lo;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 p((corner & 1) ? box.hi.x : box.lo.x, (corner & 2) ? box.hi.y : box.lo.y,
-                 (corner & 4) ? box.hi.z : box.lo.z);
-    const Vec3 q(glm::dot(p, across.tangent), glm::dot(p, across.bitangent), glm::dot(p, to_source));
-    lo = glm::min(lo, q);
-    hi = glm::max(hi, q);
-  }
-  const double start = hi.z + 0.01 * (hi.z - lo.z) + 1e-3;
-  int met = 0;
-  for (int i = 0; i < rays; ++i) {
-    if (i % 1024 == 0) control.check();
-    const double x = std::fmod(0.5 + i * kStepX, 1.0), y = std::fmod(0.5 + i * kStepY, 1.0);
-    const Vec3 origin = (lo.x + x * (hi.x - lo.x)) * across.tangent +
-                        (lo.y + y * (hi.y - lo.y)) * across.bitangent + start * to_source;
-    met += scene.occluded(origin, -to_source) ? 1 : 0;
-  }
-  return (hi.x - lo.x) * (hi.y - lo.y) * met / rays;
-}
-
 // Interception in boxes rises with what the area shows; bisection.
 double fitted_shown(WorldSweep& sweep, const std::vector<Vec3>& suns, double wanted_m2,
                     const RunControl& control) {
@@ -78,20 +43,20 @@ double fitted_shown(WorldSweep& sweep, const std::vector<Vec3>& suns, double wan
   return 0.5 * (lo + hi);
 }
 
-CrownOptics optics_of(const Forest& alone, const CrownOpticsOptions& options,
+CrownOptics optics_of(const CrownAlone& crown, const CrownOpticsOptions& options, std::size_t prototype,
                       const RunControl& control) {
   CrownOptics optics;
-  const RayScene scene(alone, {.ground = false}, control);
-  const Box box = forest_bounds(alone);
-  const WorldCanopy canopy = world_canopy(alone, options.voxel_m, control);
+  const WorldCanopy canopy = world_canopy(crown.forest(), options.voxel_m, control);
   WorldSweep sweep(canopy);
+  RandomStream random(options.seed, prototype, RandomPurpose::kStandRays);
   for (const double zenith_deg : kZenithDeg) {
     std::vector<Vec3> suns;
     double traced = 0.0;
     for (const double azimuth_deg : kAzimuthDeg) {
-      suns.push_back(direction_from_azimuth_zenith(radians_from_degrees(azimuth_deg),
-                                                   radians_from_degrees(zenith_deg)));
-      traced += traced_m2(scene, box, suns.back(), options.rays, control) /
+      control.check();
+      suns.push_back(
+          direction_from_azimuth_zenith(radians_from_degrees(azimuth_deg), radians_from_degrees(zenith_deg)));
+      traced += crown.intercept(suns.back(), 0.0, options.rays, random).m2 /
                 static_cast<double>(kAzimuthDeg.size());
     }
     optics.zenith_rad.push_back(radians_from_degrees(zenith_deg));
@@ -113,7 +78,7 @@ std::vector<CrownOptics> crown_optics(const Forest& forest, const CrownOpticsOpt
   for (const Instance& tree : forest.instances) used[tree.prototype.value] = 1;
   for_each_chunk(out.size(), 1, control, "crowns alone", [&](std::size_t p, std::size_t) {
     if (!used[p] || prototype_bounds(forest.prototypes[p]).empty()) return;
-    out[p] = optics_of(single_tree(forest, p), options, control);
+    out[p] = optics_of(CrownAlone(forest, p, control), options, p, control);
   });
   return out;
 }

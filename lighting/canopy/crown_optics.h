@@ -1,6 +1,6 @@
-// What a prototype takes from parallel light when it stands alone, traced through its real leaves and wood, and
-// what each m2 of its area must show in the boxes of a WorldCanopy to take the same: leaf angles and clumping
-// below the size of a box are both in that number.
+// What a prototype takes from parallel light when it stands alone, traced through its real leaves and wood,
+// and what each m2 of its area must show in the boxes of a WorldCanopy to take the same: leaf angles and
+// clumping below the size of a box are both in that number.
 #pragma once
 
 #include <cstdint>
@@ -23,6 +23,7 @@ struct CrownOptics {
 struct CrownOpticsOptions {
   double voxel_m = 1;
   int rays = 2000;  // over a rectangle round the crown's shadow, per zenith and azimuth
+  std::uint64_t seed = 1;
 };
 
 // One per prototype of the forest; prototypes that no tree uses stay empty. Progress stage "crowns alone".

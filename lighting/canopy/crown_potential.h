@@ -1,14 +1,19 @@
-// What each tree would intercept alone in the open: rays go through the whole stand, and every tree that is
-// met anywhere on the way counts once per ray (in a periodic forest every copy of it for itself).
+// What each tree would intercept alone in the open, direction by direction: rays over the rectangle that
+// holds the tree, through nothing but the tree.
 #pragma once
 
-#include "lighting/canopy/first_light.h"
+#include <cstdint>
+#include <vector>
+
+#include "lighting/canopy/light_weights.h"
+#include "lighting/canopy/response_table.h"
+#include "lighting/canopy/stand_scene.h"
 
 namespace sunfleck {
 
-// m2 of facing light per instance, leaves and wood. `rays_on_map` of `options` as in drop_light(); every tree
-// gets the counts of all rays, so that far fewer rays than there are needed.
-ResponseTable crown_potential(const StandScene& scene, const LightSource& source, const DropOptions& options,
-                              const RunControl& control);
+// m2 of facing light per instance, leaves and wood. `rays` per direction and tree; 0 skips the direction.
+// Errors by the mean worth of a ray over the trees.
+ResponseTable crown_potential(const StandScene& scene, const LightSource& source,
+                              const std::vector<int>& rays, std::uint64_t seed, const RunControl& control);
 
 }  // namespace sunfleck

@@ -12,11 +12,9 @@ namespace sunfleck {
 
 namespace {
 
-// Steps of the two-dimensional golden lattice: 1/p and 1/p^2, p = 1.3247... the plastic number. Roberts
-// 2018, "The unreasonable effectiveness of quasirandom sequences".
-constexpr double kStepX = 0.7548776662466927, kStepY = 0.5698402909980532;
-
-double fraction(double x) { return x - std::floor(x); }
+// Rays of neighbouring places follow each other, strip by strip of so many rows: they find the same trees in
+// the caches.
+constexpr std::size_t kStripRows = 4;
 
 // Where the line p + t d runs inside the box, if it does.
 std::optional<double> entry_of(const Box& box, const Vec3& p, const Vec3& d) {
@@ -35,8 +33,7 @@ std::optional<double> entry_of(const Box& box, const Vec3& p, const Vec3& d) {
 
 }  // namespace
 
-DropRays::DropRays(const StandScene& scene, const Vec3& to_source, double half_angle_rad, double rays_on_map,
-                   std::uint64_t seed)
+DropRays::DropRays(const StandScene& scene, const Vec3& to_source, double half_angle_rad, double rays_on_map)
     : scene_(scene), to_source_(to_source), half_angle_rad_(half_angle_rad) {
   const double facing = scene.ground().facing(to_source);
   if (!(facing > 0.0)) return;
@@ -45,10 +42,10 @@ DropRays::DropRays(const StandScene& scene, const Vec3& to_source, double half_a
   most_facing_ = std::cos(std::max(0.0, off_normal - half_angle_rad)) / scene.ground().normal.z;
   const Vec2 map_m = scene.ground().size_m();
   const double area_m2 = size_m_.x * size_m_.y;
-  count_ = static_cast<std::size_t>(std::max(1.0, std::round(rays_on_map * area_m2 / (map_m.x * map_m.y))));
-  quantum_m2_ = facing * area_m2 / static_cast<double>(count_);
-  RandomStream random(seed, 0, RandomPurpose::kStandRays);
-  shift_ = {random.uniform(), random.uniform()};
+  const double wanted = std::max(1.0, rays_on_map * area_m2 / (map_m.x * map_m.y));
+  columns_ = static_cast<std::size_t>(std::max(1.0, std::round(std::sqrt(wanted * size_m_.x / size_m_.y))));
+  rows_ = static_cast<std::size_t>(std::max(1.0, std::round(wanted / static_cast<double>(columns_))));
+  quantum_m2_ = facing * area_m2 / static_cast<double>(count());
 }
 
 // The map and the shadow of the box round the forest, with a margin as wide as the forest is high for the
@@ -95,8 +92,13 @@ Vec3 DropRays::from_cone(RandomStream& random) const {
 }
 
 DropRay DropRays::ray(std::size_t i, RandomStream& random) const {
-  const double n = static_cast<double>(i);
-  const Vec2 aim = lo_m_ + size_m_ * Vec2(fraction(shift_.x + n * kStepX), fraction(shift_.y + n * kStepY));
+  const std::size_t strip = i / (kStripRows * columns_), within = i % (kStripRows * columns_);
+  const std::size_t rows = std::min(kStripRows, rows_ - strip * kStripRows);
+  const Vec2 place(static_cast<double>(within / rows),
+                   static_cast<double>(strip * kStripRows + within % rows));
+  const Vec2 jitter(random.uniform(), random.uniform());
+  const Vec2 aim =
+      lo_m_ + size_m_ * (place + jitter) / Vec2(static_cast<double>(columns_), static_cast<double>(rows_));
   DropRay ray;
   ray.aim_m = {aim, scene_.forest().terrain.height_at(aim.x, aim.y)};
   const Vec3 towards = half_angle_rad_ > 0.0 ? from_cone(random) : to_source_;

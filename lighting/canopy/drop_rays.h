@@ -24,10 +24,9 @@ class DropRays {
  public:
   // `rays_on_map` > 0 of them aim at the map. `to_source` is unit; with StandGround::facing() of 0 there are
   // no rays. `half_angle_rad`: of the cone that light comes from.
-  DropRays(const StandScene& scene, const Vec3& to_source, double half_angle_rad, double rays_on_map,
-           std::uint64_t seed);
+  DropRays(const StandScene& scene, const Vec3& to_source, double half_angle_rad, double rays_on_map);
 
-  std::size_t count() const { return count_; }
+  std::size_t count() const { return columns_ * rows_; }  // about as many as asked for
   double quantum_m2() const { return quantum_m2_; }
   const Vec3& to_source() const { return to_source_; }
   // Ray number i; `random` is the ray's own stream.
@@ -41,9 +40,8 @@ class DropRays {
   const StandScene& scene_;
   Vec3 to_source_;
   double half_angle_rad_;
-  Vec2 lo_m_{0}, size_m_{0};  // of the ground aimed at
-  Vec2 shift_{0};             // of the even pattern, [0, 1)
-  std::size_t count_ = 0;
+  Vec2 lo_m_{0}, size_m_{0};            // of the ground aimed at
+  std::size_t columns_ = 0, rows_ = 0;  // one ray in each of so many rectangles
   double quantum_m2_ = 0, most_facing_ = 1;
 };
 

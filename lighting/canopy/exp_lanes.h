@@ -14,8 +14,10 @@ inline float exp_of_minus(float x) {
   const float shifted = binary + 12582912.0f;  // 1.5 * 2^23: rounds to a whole number
   const float f = binary - (shifted - 12582912.0f);
   const float power =
-      1.0f + f * (0.693147181f + f * (0.240226507f + f * (0.0555041087f + f * (0.00961812911f +
-             f * (0.00133335581f + f * 0.000154035304f)))));
+      1.0f +
+      f * (0.693147181f +
+           f * (0.240226507f +
+                f * (0.0555041087f + f * (0.00961812911f + f * (0.00133335581f + f * 0.000154035304f)))));
   const std::int32_t exponent = (std::bit_cast<std::int32_t>(shifted) - 0x4B400000) << 23;
   return std::bit_cast<float>(std::bit_cast<std::int32_t>(power) + exponent);
 }

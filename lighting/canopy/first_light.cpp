@@ -236,7 +236,7 @@ StandResponse drop_light(const StandScene& scene, const OpticsTable& optics, con
   for_each_chunk(source.size(), 1, control, "light on the stand", [&](std::size_t d, std::size_t) {
     if (!(options.rays_on_map[d] > 0.0)) return;
     const std::uint64_t seed = mix_seed(options.seed, d);
-    const DropRays rays(scene, source.to_source[d], source.half_angle(d), options.rays_on_map[d], seed);
+    const DropRays rays(scene, source.to_source[d], source.half_angle(d), options.rays_on_map[d]);
     DirectionTrace(scene, optics, d, out).run(rays, seed, control);
   });
   return out;

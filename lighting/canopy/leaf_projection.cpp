@@ -44,7 +44,8 @@ double mean_leaf_cosine(double inclination_rad, double zenith_rad) {
 std::vector<double> leaf_projection(const Forest& forest, std::span<const double> zenith_rad) {
   // A turn about the vertical changes no inclination, a scale every area alike.
   std::vector<double> times(forest.prototypes.size(), 0.0);
-  for (const Instance& i : forest.instances) times[i.prototype.value] += static_cast<double>(i.scale) * i.scale;
+  for (const Instance& i : forest.instances)
+    times[i.prototype.value] += static_cast<double>(i.scale) * i.scale;
   LeafInclinations sums;
   for (std::size_t p = 0; p < times.size(); ++p) add_leaves(forest.prototypes[p], times[p], sums);
   std::vector<double> out(zenith_rad.size(), 0.0);

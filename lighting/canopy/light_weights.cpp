@@ -10,7 +10,9 @@ namespace sunfleck {
 
 namespace {
 
-std::string entry(const char* list, std::size_t i) { return std::string(list) + "[" + std::to_string(i) + "]"; }
+std::string entry(const char* list, std::size_t i) {
+  return std::string(list) + "[" + std::to_string(i) + "]";
+}
 
 void check_directions(LightSource& source, const std::string& where) {
   for (std::size_t d = 0; d < source.size(); ++d) {

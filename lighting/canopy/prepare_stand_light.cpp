@@ -14,9 +14,9 @@ void check(const StandLightRequest& r) {
   if (!(r.rays_per_cell > 0.0 && r.rays_per_cell <= 1e7))
     throw_invalid("stand_light.rays_per_cell", std::to_string(r.rays_per_cell) + " is out of range",
                   "more than 0, at most 10,000,000");
-  if (!(r.potential_share > 0.0 && r.potential_share <= 1.0))
-    throw_invalid("stand_light.potential_share", std::to_string(r.potential_share) + " is out of range",
-                  "more than 0, at most 1");
+  if (r.potential_rays < 1 || r.potential_rays > 10'000'000)
+    throw_invalid("stand_light.potential_rays", std::to_string(r.potential_rays) + " is out of range",
+                  "1 to 10,000,000");
   for (const int rays : {r.sensor_sun_rays, r.sensor_sky_rays})
     if (rays < 1 || rays > 100'000)
       throw_invalid("stand_light.sensor_rays", std::to_string(rays) + " is out of range", "1 to 100,000");
@@ -55,16 +55,22 @@ DirectionalBasis prepare_stand_light(const StandScene& scene, const OpticsTable&
       directions += e > 0.0 ? 1.0 : 0.0;
     }
   const double rays = request.rays_per_cell * static_cast<double>(scene.ground().count());
-  const auto options = [&](const std::vector<double>& energy, double share, std::uint64_t part) {
-    return DropOptions{mix_seed(request.seed, part), share_out(energy, total, directions, share * rays),
+  const auto options = [&](const std::vector<double>& energy, std::uint64_t part) {
+    return DropOptions{mix_seed(request.seed, part), share_out(energy, total, directions, rays),
                        request.scattering};
   };
-  basis.from_sun = drop_light(scene, optics, basis.sky.sun, options(sun, 1.0, 1), control);
-  basis.from_sky = drop_light(scene, optics, basis.sky.sky, options(sky, 1.0, 2), control);
+  basis.from_sun = drop_light(scene, optics, basis.sky.sun, options(sun, 1), control);
+  basis.from_sky = drop_light(scene, optics, basis.sky.sky, options(sky, 2), control);
+  const auto potential = [&](const LightSource& source, const std::vector<double>& energy,
+                             std::uint64_t part) {
+    const std::vector<double> share = share_out(energy, total, directions, request.potential_rays);
+    std::vector<int> whole;
+    for (const double s : share) whole.push_back(static_cast<int>(std::lround(s)));
+    return crown_potential(scene, source, whole, mix_seed(request.seed, part), control);
+  };
   if (request.potential) {
-    const double share = request.potential_share;
-    basis.potential_sun_m2 = crown_potential(scene, basis.sky.sun, options(sun, share, 1), control);
-    basis.potential_sky_m2 = crown_potential(scene, basis.sky.sky, options(sky, share, 2), control);
+    basis.potential_sun_m2 = potential(basis.sky.sun, sun, 5);
+    basis.potential_sky_m2 = potential(basis.sky.sky, sky, 6);
   }
   basis.sensors_sun = sensor_response(scene, basis.sensors, basis.sky.sun, request.sensor_sun_rays,
                                       mix_seed(request.seed, 3), control);

@@ -25,8 +25,9 @@ constexpr std::array<double, 5> kLai2000Weights{0.034, 0.104, 0.160, 0.218, 0.49
 
 void check(const CanopyOptions& o) {
   if (o.zenith_steps < 9 || o.zenith_steps > 1800 || o.azimuth_steps < kSegments || o.azimuth_steps > 7200)
-    throw_invalid("canopy", "cannot look in " + std::to_string(o.zenith_steps) + " x " +
-                                std::to_string(o.azimuth_steps) + " directions",
+    throw_invalid("canopy",
+                  "cannot look in " + std::to_string(o.zenith_steps) + " x " +
+                      std::to_string(o.azimuth_steps) + " directions",
                   "9 to 1800 steps of zenith, 24 to 7200 of azimuth");
   if (!(o.last_zenith_deg >= 10.0 && o.last_zenith_deg <= 90.0))
     throw_invalid("canopy.last_zenith_deg", "is out of range", "10 to 90 degrees");
@@ -106,7 +107,8 @@ GapRing ring_of(const std::vector<View>& views, const Band& band) {
 double floor_of(const GapRing& ring) { return std::max(ring.gap_fraction, 0.5 * ring.standard_error); }
 
 double contact(double gap, const GapRing& ring) {
-  return -std::log(std::max(gap, 1e-12)) * std::cos(radians_from_degrees(0.5 * (ring.from_deg + ring.to_deg)));
+  return -std::log(std::max(gap, 1e-12)) *
+         std::cos(radians_from_degrees(0.5 * (ring.from_deg + ring.to_deg)));
 }
 
 // L = 2 sum -ln P cos(theta) w.
@@ -120,14 +122,16 @@ void infer_lai(SensorCanopy& canopy) {
     canopy.effective_lai_lai2000 += w * contact(floor_of(ring), ring);
     canopy.clumped_lai += w * contact(ring.log_mean_gap, ring);
     const double relative = ring.standard_error / floor_of(ring);
-    variance += std::pow(w * std::cos(radians_from_degrees(0.5 * (ring.from_deg + ring.to_deg))) * relative, 2);
+    variance +=
+        std::pow(w * std::cos(radians_from_degrees(0.5 * (ring.from_deg + ring.to_deg))) * relative, 2);
   }
   canopy.effective_lai_error = std::sqrt(variance);
   if (canopy.clumped_lai > 0.0) canopy.clumping = canopy.effective_lai_lai2000 / canopy.clumped_lai;
   double ten_weights = 0.0, ten = 0.0;
   for (std::size_t i = 0; i < 8; ++i) {
     const GapRing& ring = canopy.rings_10_deg[i];
-    const double w = std::cos(radians_from_degrees(ring.from_deg)) - std::cos(radians_from_degrees(ring.to_deg));
+    const double w =
+        std::cos(radians_from_degrees(ring.from_deg)) - std::cos(radians_from_degrees(ring.to_deg));
     ten_weights += w;
     ten += 2.0 * w * contact(floor_of(ring), ring);
   }
@@ -136,10 +140,11 @@ void infer_lai(SensorCanopy& canopy) {
 
 SensorCanopy canopy_of(const std::vector<View>& views, double last_zenith_deg) {
   SensorCanopy canopy;
-  const Share open = share_of(
-      views, [&](const View& v) { return v.zenith_deg < last_zenith_deg ? v.solid_angle : 0.0; });
+  const Share open =
+      share_of(views, [&](const View& v) { return v.zenith_deg < last_zenith_deg ? v.solid_angle : 0.0; });
   const Share view = share_of(views, [&](const View& v) {
-    return v.zenith_deg < last_zenith_deg ? v.solid_angle * std::cos(radians_from_degrees(v.zenith_deg)) : 0.0;
+    return v.zenith_deg < last_zenith_deg ? v.solid_angle * std::cos(radians_from_degrees(v.zenith_deg))
+                                          : 0.0;
   });
   canopy.openness = open.value;
   canopy.openness_error = open.error;
@@ -172,8 +177,9 @@ std::vector<SensorCanopy> sensor_canopy(const StandScene& scene, const std::vect
 HemisphericalPhotograph hemispherical_photograph(const StandScene& scene, const LightSensor& sensor,
                                                  const PhotographOptions& o, const RunControl& control) {
   if (o.pixels < 8 || o.pixels > 8192 || o.samples_per_pixel < 1 || o.samples_per_pixel > 1024)
-    throw_invalid("photograph", "cannot be " + std::to_string(o.pixels) + " pixels wide with " +
-                                    std::to_string(o.samples_per_pixel) + " samples per pixel",
+    throw_invalid("photograph",
+                  "cannot be " + std::to_string(o.pixels) + " pixels wide with " +
+                      std::to_string(o.samples_per_pixel) + " samples per pixel",
                   "8 to 8192 pixels, 1 to 1024 samples");
   const auto edge = static_cast<std::size_t>(o.pixels);
   HemisphericalPhotograph photo{o.pixels, std::vector<float>(edge * edge, 0.0f)};

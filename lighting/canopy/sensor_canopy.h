@@ -1,6 +1,6 @@
 // What a sensor sees of the canopy: openness, gaps by zenith angle, leaf area and clumping from the gaps, and
-// the virtual hemispherical photograph. Rays from the sensor over the upper hemisphere, evenly in zenith angle
-// and azimuth; stems and branches count as canopy ("plant area").
+// the virtual hemispherical photograph. Rays from the sensor over the upper hemisphere, evenly in zenith
+// angle and azimuth; stems and branches count as canopy ("plant area").
 #pragma once
 
 #include <array>

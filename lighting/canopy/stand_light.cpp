@@ -156,9 +156,8 @@ class Evaluation {
     t.direct_share = divided(direct, open_direct_);
     t.diffuse_share = divided(diffuse, open_diffuse_);
     for (std::size_t b = 0; b < basis_.from_sun.bands.size(); ++b)
-      t.scattered.push_back(
-          sum_of(from_sun(basis_.from_sun.bands[b].ground_scattered_share, sun_facing_),
-                 from_sky(basis_.from_sky.bands[b].ground_scattered_share, sky_facing_)));
+      t.scattered.push_back(sum_of(from_sun(basis_.from_sun.bands[b].ground_scattered_share, sun_facing_),
+                                   from_sky(basis_.from_sky.bands[b].ground_scattered_share, sky_facing_)));
   }
 
   void fill_trees() {

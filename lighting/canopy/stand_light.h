@@ -1,8 +1,8 @@
 // Light for ecologists: what reaches trees, ground, layers and sensors of a stand over any period.
 //
 // Two steps. prepare_stand_light() traces the response of every target to each direction (DirectionalBasis:
-// depends on the forest, the optics, the sensors and the directions). stand_light() is then a weighted sum per
-// interval: hours of a year cost little more than one. A basis serves any weights on its own directions.
+// depends on the forest, the optics, the sensors and the directions). stand_light() is then a weighted sum
+// per interval: hours of a year cost little more than one. A basis serves any weights on its own directions.
 //
 // Units: energies are in the unit of the weights (say MJ m-2 per interval): per m2 at sensors and on the
 // ground, times m2 for trees, layers and the plot (so MJ). Shares are of the light over open ground.
@@ -27,13 +27,13 @@ namespace sunfleck {
 struct StandLightRequest {
   StandSky sky;
   std::vector<LightSensor> sensors;
-  bool scattering = true;      // per band of the optics; false: no band tables
-  bool potential = true;       // what each tree would get alone
-  bool canopy_views = false;   // openness, gaps and leaf area at the sensors
+  bool scattering = true;     // per band of the optics; false: no band tables
+  bool potential = true;      // what each tree would get alone
+  bool canopy_views = false;  // openness, gaps and leaf area at the sensors
   CanopyOptions canopy;
   // Cost. Rays per ground cell over all directions together, shared out half by energy, half evenly.
-  double rays_per_cell = 1500;    // (0, 1e7]
-  double potential_share = 0.03;  // of those rays for trees alone, (0, 1]
+  double rays_per_cell = 1000;  // (0, 1e7]
+  int potential_rays = 1000;    // per tree alone over all directions together, shared out alike, 1 .. 1e7
   int sensor_sun_rays = 4, sensor_sky_rays = 16;  // per sensor and direction, 1 .. 100,000
   std::uint64_t seed = 1;
 };
@@ -85,8 +85,8 @@ struct LayerTables {
   IntervalTable light_share;            // unscattered light through a level plane there, over the map
 };
 
-// Energy, per interval. unscattered: sent = leaves + wood + ground + beyond + missed. Per band: sent = absorbed
-// by leaves, wood, ground, + reflected to the sky, + ground beyond + missed. Both close to rounding.
+// Energy, per interval. unscattered: sent = leaves + wood + ground + beyond + missed. Per band: sent =
+// absorbed by leaves, wood, ground, + reflected to the sky, + ground beyond + missed. Both close to rounding.
 struct PlotBand {
   std::string band;
   std::vector<double> leaves, wood, ground, reflected, beyond;

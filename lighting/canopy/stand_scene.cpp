@@ -68,9 +68,10 @@ void StandScene::fit_ground(const StandSceneOptions& options) {
   const Vec2 size = glm::max(hi - lo, Vec2(1e-6));
   const Vec2 cells = glm::max(glm::round(size / options.ground_cell_m), Vec2(1.0));
   if (cells.x * cells.y > kMostCells)
-    throw Error(ErrorKind::kLimitExceeded, "stand.ground_cell_m",
-                "gives " + std::to_string(static_cast<long long>(cells.x * cells.y)) + " ground cells",
-                "at most 4 million: " + std::to_string(std::sqrt(size.x * size.y / kMostCells)) + " m or more");
+    throw Error(
+        ErrorKind::kLimitExceeded, "stand.ground_cell_m",
+        "gives " + std::to_string(static_cast<long long>(cells.x * cells.y)) + " ground cells",
+        "at most 4 million: " + std::to_string(std::sqrt(size.x * size.y / kMostCells)) + " m or more");
   ground_.lo_m = lo;
   ground_.nx = static_cast<std::uint32_t>(cells.x);
   ground_.ny = static_cast<std::uint32_t>(cells.y);
@@ -89,9 +90,9 @@ void StandScene::measure_height() {
   }
   const double fall = std::tan(forest_.terrain.slope_rad);
   for (const Instance& tree : forest_.instances)
-    ceiling_m_ = std::max(ceiling_m_, height_above_ground(tree.position_m) +
-                                          tree.scale * (top_m[tree.prototype.value] +
-                                                        fall * reach_m[tree.prototype.value]));
+    ceiling_m_ = std::max(
+        ceiling_m_, height_above_ground(tree.position_m) +
+                        tree.scale * (top_m[tree.prototype.value] + fall * reach_m[tree.prototype.value]));
   ceiling_m_ = std::max(ceiling_m_, 1e-6) * (1.0 + 1e-6);
   if (ceiling_m_ / layer_m_ > kMostLayers)
     throw Error(ErrorKind::kLimitExceeded, "stand.layer_m", "makes more than 10,000 layers",

@@ -55,9 +55,7 @@ class StandScene {
   double layer_m() const { return layer_m_; }
   std::size_t layer_count() const { return layer_leaf_area_m2_.size(); }
   std::size_t layer_at(const Vec3& point_m) const;  // by height above the ground plane
-  double height_above_ground(const Vec3& p) const {
-    return p.z - forest_.terrain.height_at(p.x, p.y);
-  }
+  double height_above_ground(const Vec3& p) const { return p.z - forest_.terrain.height_at(p.x, p.y); }
   const Box& bounds() const { return bounds_; }
   double ceiling_m() const { return ceiling_m_; }  // above the ground plane, nothing stands higher
   const std::vector<double>& tree_leaf_area_m2() const { return tree_leaf_area_m2_; }

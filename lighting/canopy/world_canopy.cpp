@@ -114,8 +114,7 @@ class CanopyBuilder {
     const Vec2 cells = glm::max(forest_.period ? glm::round(size / v) : glm::ceil(size / v), Vec2(1.0));
     const double nz = std::floor(top_m / v) + 1.0;
     if (cells.x * cells.y * nz > 4e8)
-      throw Error(ErrorKind::kLimitExceeded, "world.voxel_m",
-                  "gives more than 400 million boxes",
+      throw Error(ErrorKind::kLimitExceeded, "world.voxel_m", "gives more than 400 million boxes",
                   std::to_string(v * std::cbrt(cells.x * cells.y * nz / 4e8)) + " m or more");
     canopy_.lo_m = lo;
     canopy_.nx = static_cast<std::uint32_t>(cells.x);

@@ -21,8 +21,8 @@ void check(const WorldLightOptions& o) {
   require(o.voxel_m >= 0.1 && o.voxel_m <= 20.0, "voxel_m", o.voxel_m, "0.1 to 20 m");
   require(o.boxes_per_cell >= 1 && o.boxes_per_cell <= 100, "boxes_per_cell", o.boxes_per_cell, "1 to 100");
   require(o.crown_rays >= 16 && o.crown_rays <= 1'000'000, "crown_rays", o.crown_rays, "16 to 1,000,000");
-  require(o.directions_at_once >= 1 && o.directions_at_once <= 64, "directions_at_once",
-          o.directions_at_once, "1 to 64");
+  require(o.directions_at_once >= 1 && o.directions_at_once <= 64, "directions_at_once", o.directions_at_once,
+          "1 to 64");
 }
 
 // Cells of boxes_per_cell boxes; the last ones of a row may be narrower and are then counted as they are.
@@ -133,8 +133,8 @@ class WorldEvaluation {
       const std::size_t count = std::min(sweeps_.size(), lit.size() - first);
       for_each_chunk(count, 1, control_, {}, [&](std::size_t k, std::size_t) {
         const std::size_t d = lit[first + k];
-        answers[k] = respond(sweeps_[k], source.to_source[d],
-                             mix_seed(mix_seed(prepared_.options.seed, part), d));
+        answers[k] =
+            respond(sweeps_[k], source.to_source[d], mix_seed(mix_seed(prepared_.options.seed, part), d));
       });
       for (std::size_t k = 0; k < count; ++k)
         add(answers[k], source.to_source[lit[first + k]], weights[lit[first + k]], ground);
@@ -212,7 +212,7 @@ WorldPrepared prepare_world_light(const Forest& forest, const WorldLightOptions&
   WorldPrepared prepared;
   prepared.options = options;
   prepared.canopy = world_canopy(forest, options.voxel_m, control);
-  prepared.crowns = crown_optics(forest, {options.voxel_m, options.crown_rays}, control);
+  prepared.crowns = crown_optics(forest, {options.voxel_m, options.crown_rays, options.seed}, control);
   prepared.map = map_of(prepared.canopy, options.boxes_per_cell);
   return prepared;
 }

@@ -1,5 +1,5 @@
-// Stand light for large stands (tens of thousands of trees): unscattered light on the ground and on every tree
-// over any intervals, by sweeps through boxes of leaf area, one per direction.
+// Stand light for large stands (tens of thousands of trees): unscattered light on the ground and on every
+// tree over any intervals, by sweeps through boxes of leaf area, one per direction.
 //
 // prepare_world_light() depends on the forest only; world_light() on the directions and weights. Light that
 // leaves, wood and ground throw back is not followed: multiply intercepted light by what leaves absorb
@@ -19,9 +19,9 @@
 namespace sunfleck {
 
 struct WorldLightOptions {
-  double voxel_m = 1;        // edge of a box, 0.1 to 20 m
-  int boxes_per_cell = 2;    // ground cells are this many boxes wide, 1 .. 100: 2 m cells by default
-  int crown_rays = 2000;     // per prototype, zenith and azimuth, 16 .. 1e6
+  double voxel_m = 1;          // edge of a box, 0.1 to 20 m
+  int boxes_per_cell = 2;      // ground cells are this many boxes wide, 1 .. 100: 2 m cells by default
+  int crown_rays = 2000;       // per prototype, zenith and azimuth, 16 .. 1e6
   int directions_at_once = 4;  // each takes 4 bytes per box; 1 .. 64; changes no result
   std::uint64_t seed = 1;
 };

@@ -27,7 +27,8 @@ std::int64_t floor_mod(std::int64_t a, std::int64_t n) { return (a % n + n) % n;
 
 }  // namespace
 
-void WorldSweep::fill_depths(double facing, std::span<const float> shown_per_area, const RunControl& control) {
+void WorldSweep::fill_depths(double facing, std::span<const float> shown_per_area,
+                             const RunControl& control) {
   boxes_.assign(canopy_.voxel_count(), 0.0f);
   const auto per_m2 = static_cast<float>(1.0 / (canopy_.edge_m.x * canopy_.edge_m.y * facing));
   for (std::size_t t = 0; t + 1 < canopy_.first_entry.size(); ++t) {

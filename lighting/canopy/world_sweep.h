@@ -3,8 +3,8 @@
 // A box of area A whose trees show k per m2 towards the light has the depth k A / (edge^2 facing) for light
 // that crosses its layer; facing is the cosine to the vertical on level ground. Every layer acts at its
 // middle. Rays keep to their line (no spreading from layer to layer); where they cross a layer is rounded to
-// whole boxes, the rounding drawn per layer, so that each box of a layer is met by exactly one ray: what boxes
-// take and what arrives at the ground is what came, to rounding.
+// whole boxes, the rounding drawn per layer, so that each box of a layer is met by exactly one ray: what
+// boxes take and what arrives at the ground is what came, to rounding.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@
 namespace sunfleck {
 
 struct SweptLight {
-  std::vector<float> ground;            // transmitted share per box column [ny][nx]
-  std::vector<double> intercepted_m2;   // per tree, of facing light
+  std::vector<float> ground;                 // transmitted share per box column [ny][nx]
+  std::vector<double> intercepted_m2;        // per tree, of facing light
   double incident_m2 = 0, to_ground_m2 = 0;  // of the rays that aim at the columns' ground
 };
 
@@ -38,8 +38,8 @@ class WorldSweep {
 
   const WorldCanopy& canopy_;
   std::vector<float> boxes_;  // depth; after a layer is passed: light that arrives per depth taken
-  // Share that is left of every ray: periodic, by the column it aims at; else of the rays over the boxes of the
-  // layer (those that leave never come back, those that come in are fresh).
+  // Share that is left of every ray: periodic, by the column it aims at; else of the rays over the boxes of
+  // the layer (those that leave never come back, those that come in are fresh).
   std::vector<float> light_, moved_;
 };
 

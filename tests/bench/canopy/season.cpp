@@ -69,7 +69,8 @@ void add_sky(StandSky& sky, const SeasonOptions& o, const std::vector<double>& d
   const double d_z = 1.0 / o.sky_rings;
   for (int ring = 0; ring < o.sky_rings; ++ring) {
     const double z = 1.0 - (ring + 0.5) * d_z;
-    const int count = std::max(4, static_cast<int>(std::lround(2.0 * kPi * std::sqrt(1.0 - z * z) / std::sqrt(0.5 * d_z))));
+    const int count =
+        std::max(4, static_cast<int>(std::lround(2.0 * kPi * std::sqrt(1.0 - z * z) / std::sqrt(0.5 * d_z))));
     for (int k = 0; k < count; ++k) {
       sky.sky.to_source.push_back(direction_from_azimuth_zenith(2.0 * kPi * (k + 0.5) / count, std::acos(z)));
       const double solid_angle = 2.0 * kPi * d_z / count;

@@ -1,5 +1,5 @@
-// A growing season over a measured stand, from its table of monthly radiation: an hourly sum of sun positions,
-// for measurements of stand light on its own.
+// A growing season over a measured stand, from its table of monthly radiation: an hourly sum of sun
+// positions, for measurements of stand light on its own.
 //
 // Every month's global radiation is shared out over its daylight hours in proportion to the extraterrestrial
 // radiation on the horizontal (clearness the same all month), and split by the month's diffuse fraction. The

@@ -1,9 +1,10 @@
-// Measured stands: canopy_stands [cloture20] [leaves per tree], canopy_stands bechefa [leaves] [rays per cell].
+// Measured stands. canopy_stands [cloture20] [leaves per tree]: a season at the measured sensors.
+// canopy_stands <stand> <leaves per tree> <rays per cell>: absorbed PAR per tree against the reference.
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
-#include <algorithm>
 #include <string>
 
 #include "lighting/canopy/stand_light.h"
@@ -56,13 +57,36 @@ void print_sensors(const MeasuredStand& stand, const StandLight& light, bool eac
 
 void print_plot(const StandLight& light) {
   const PlotTables& p = light.plot;
-  std::printf("    sent %.4g = leaves %.4g + wood %.4g + ground %.4g + beyond %.4g + missed %.4g\n", p.sent[0],
-              p.leaves[0], p.wood[0], p.ground[0], p.beyond[0], p.missed[0]);
+  std::printf("    sent %.4g = leaves %.4g + wood %.4g + ground %.4g + beyond %.4g + missed %.4g\n",
+              p.sent[0], p.leaves[0], p.wood[0], p.ground[0], p.beyond[0], p.missed[0]);
   for (const PlotBand& b : p.bands)
-    std::printf("    %s: fapar %.4f albedo %.4f transmittance %.4f; leaves %.4g wood %.4g ground %.4g reflected "
-                "%.4g beyond %.4g\n",
-                b.band.c_str(), b.fapar[0], b.albedo[0], b.transmittance[0], b.leaves[0], b.wood[0],
-                b.ground[0], b.reflected[0], b.beyond[0]);
+    std::printf(
+        "    %s: fapar %.4f albedo %.4f transmittance %.4f; leaves %.4g wood %.4g ground %.4g reflected "
+        "%.4g beyond %.4g\n",
+        b.band.c_str(), b.fapar[0], b.albedo[0], b.transmittance[0], b.leaves[0], b.wood[0], b.ground[0],
+        b.reflected[0], b.beyond[0]);
+}
+
+// 8,784 hours, half of them night: each with one sun bin and the whole sky.
+void a_year_of_hours(const StandScene& scene, const OpticsTable& optics, const StandLightRequest& request) {
+  Lap lap;
+  const DirectionalBasis basis = prepare_stand_light(scene, optics, request, {});
+  lap.print("basis");
+  const WeightRows& sky = basis.sky.sky.strength;
+  stand_light(scene, basis, basis.sky.sun.strength, sky, basis.sky.intervals, {});
+  lap.print("7 months");
+  WeightRows sun_hours, sky_hours;
+  for (std::size_t hour = 0; hour < 8784; ++hour) {
+    if (hour % 2 == 0) {
+      sun_hours.add(hour / 2 % basis.sky.sun.size(), 1.0);
+      for (std::size_t i = sky.row_begin[0]; i < sky.row_begin[1]; ++i)
+        sky_hours.add(sky.column[i], sky.value[i]);
+    }
+    sun_hours.end_row();
+    sky_hours.end_row();
+  }
+  stand_light(scene, basis, sun_hours, sky_hours, std::vector<std::string>(8784, "hour"), {});
+  lap.print("8,784 hours");
 }
 
 void cloture20(int leaves) {
@@ -88,6 +112,7 @@ void cloture20(int leaves) {
       lap.print("stand light");
       print_sensors(stand, light, periodic && model == SkyModel::kUniform);
       print_plot(light);
+      if (periodic && model == SkyModel::kUniform) a_year_of_hours(scene, optics, request);
     }
 }
 
@@ -104,7 +129,8 @@ void against_reference(const std::string& name, int leaves, double rays_per_cell
   const Vec3 to_sun = direction_from_azimuth_zenith(2.9, radians_from_degrees(40.0));
   request.sky.sky.to_source = all.sky.to_source;
   request.sky.sky.half_angle_rad = all.sky.half_angle_rad;
-  for (std::size_t d = 0; d < all.sky.size(); ++d) request.sky.sky.strength.add(d, 1.0 - std::cos(all.sky.half_angle_rad[d]));
+  for (std::size_t d = 0; d < all.sky.size(); ++d)
+    request.sky.sky.strength.add(d, 1.0 - std::cos(all.sky.half_angle_rad[d]));
   request.sky.sky.strength.end_row();
   const double open = open_energy(request.sky.sky, {0, 0, 1})[0];
   for (double& v : request.sky.sky.strength.value) v *= 90.0 / open;
@@ -117,53 +143,39 @@ void against_reference(const std::string& name, int leaves, double rays_per_cell
   const StandLight light = stand_light(scene, optics, request, {});
   lap.print("stand light");
   print_plot(light);
-  {
-    StandLightRequest r2 = request; r2.sky.sun.strength.value[0] = 0;
-    const StandLight l2 = stand_light(scene, optics, r2, {});
-    std::printf("sky only: leaves %g, sun only %g\n", l2.plot.leaves[0], light.plot.leaves[0] - l2.plot.leaves[0]);
-  }
   Illumination sun;
   sun.to_sun = to_sun;
   sun.bands = {{300.0 / to_sun.z, 90.0}};
   ReferenceOptions options;
-  options.rays_per_face = 8;
-  options.sun_rays_per_element = 8;
+  options.rays_per_face = 32;
+  options.sun_rays_per_element = 48;
   const LightMap truth = reference_light_map(stand.forest, optics, sun, options, {});
   lap.print("reference");
   const EnergyBudget& b = truth.bands[0].budget;
-  std::printf("  reference: incident %.5g leaves %.5g wood %.5g ground %.5g escaped %.5g residual %.3g +- %.3g\n",
-              b.incident_w, b.absorbed_foliage_w, b.absorbed_wood_w, b.absorbed_ground_w, b.escaped_w,
-              b.residual_w, b.residual_standard_error_w);
+  std::printf(
+      "  reference: incident %.5g leaves %.5g wood %.5g ground %.5g escaped %.5g residual %.3g +- %.3g\n",
+      b.incident_w, b.absorbed_foliage_w, b.absorbed_wood_w, b.absorbed_ground_w, b.escaped_w, b.residual_w,
+      b.residual_standard_error_w);
   std::vector<double> off, noise;
-  double ours = 0, theirs = 0, a[2] = {}, bb[2] = {};
+  double ours = 0, theirs = 0;
   for (std::size_t i = 0; i < truth.bands[0].trees.size(); ++i) {
     const TreeLight& tree = truth.bands[0].trees[i];
     const double got = light.trees.absorbed[0].at(0, i);
     ours += got;
-    const bool sh = stand.forest.prototypes[i].foliage[0].shape == ElementShape::kShoot; a[sh] += got; bb[sh] += tree.absorbed_w;
     theirs += tree.absorbed_w;
     off.push_back(std::abs(got / tree.absorbed_w - 1.0));
     noise.push_back(tree.absorbed_standard_error_w / tree.absorbed_w);
   }
-  std::printf("flat %g shoots %g\n", a[0] / bb[0], a[1] / bb[1]);
-  const ForestIndex index(stand.forest);
-  double sun_e = 0, sky_e = 0;
-  for (std::size_t e = 0; e < truth.bands[0].elements.size(); ++e) {
-    const auto& l = truth.bands[0].elements[e];
-    const double area = world_element(stand.forest, index.place(e).instance, index.place(e).local).area_m2;
-    sun_e += area * (l.front.direct_w_m2 + l.back.direct_w_m2);
-    sky_e += area * (l.front.sky_w_m2 + l.back.sky_w_m2);
-  }
-  std::printf("reference direct %g sky %g\n", sun_e, sky_e);
   std::sort(off.begin(), off.end());
   std::sort(noise.begin(), noise.end());
   const auto at = [](const std::vector<double>& v, double q) {
     return 100.0 * v[static_cast<std::size_t>(q * static_cast<double>(v.size() - 1))];
   };
-  std::printf("  absorbed %.5g, reference %.5g (%+.2f %%); per tree off by median %.2f %%, 95th %.2f %%, worst "
-              "%.2f %%; reference's own error median %.2f 95th %.2f %%\n",
-              ours, theirs, 100.0 * (ours / theirs - 1.0), at(off, 0.5), at(off, 0.95), at(off, 1.0),
-              at(noise, 0.5), at(noise, 0.95));
+  std::printf(
+      "  absorbed %.5g, reference %.5g (%+.2f %%); per tree off by median %.2f %%, 95th %.2f %%, worst "
+      "%.2f %%; reference's own error median %.2f 95th %.2f %%\n",
+      ours, theirs, 100.0 * (ours / theirs - 1.0), at(off, 0.5), at(off, 0.95), at(off, 1.0), at(noise, 0.5),
+      at(noise, 0.95));
 }
 
 }  // namespace

@@ -12,8 +12,8 @@
 #include "lighting/canopy/stand_light.h"
 #include "lighting/canopy/world_light.h"
 #include "sim/base/parallel.h"
-#include "sim/forest/forest_spec.h"
 #include "sim/base/random.h"
+#include "sim/forest/forest_spec.h"
 #include "sim/plant/make_prototype.h"
 #include "tests/bench/canopy/season.h"
 
@@ -92,11 +92,12 @@ void compare(const char* what, const IntervalTable& ours, const IntervalTable& t
     if (theirs.at(0, t) > 0.1 * mean) off.push_back(std::abs(ours.at(0, t) / theirs.at(0, t) - 1.0));
   }
   std::sort(off.begin(), off.end());
-  std::printf("  %s: mean %.5g, rays %.5g (%+.2f %%); RMS %.2f %% of the mean (rays' noise %.2f %%); relative "
-              "median %.2f %%, 95th %.2f %%\n",
-              what, mean_ours, mean, 100 * (mean_ours / mean - 1), 100 * std::sqrt(squares) / mean,
-              100 * std::sqrt(noise) / mean, 100 * off[off.size() / 2],
-              100 * off[static_cast<std::size_t>(0.95 * static_cast<double>(off.size() - 1))]);
+  std::printf(
+      "  %s: mean %.5g, rays %.5g (%+.2f %%); RMS %.2f %% of the mean (rays' noise %.2f %%); relative "
+      "median %.2f %%, 95th %.2f %%\n",
+      what, mean_ours, mean, 100 * (mean_ours / mean - 1), 100 * std::sqrt(squares) / mean,
+      100 * std::sqrt(noise) / mean, 100 * off[off.size() / 2],
+      100 * off[static_cast<std::size_t>(0.95 * static_cast<double>(off.size() - 1))]);
 }
 
 void run(double hectares, int trees, int prototypes, int leaves, double voxel_m) {
@@ -108,7 +109,8 @@ void run(double hectares, int trees, int prototypes, int leaves, double voxel_m)
   season.bin_deg = 10;
   season.sky_rings = 6;
   const std::filesystem::path root = std::filesystem::path(SUNFLECK_SOURCE_DIR) / "../shared/data";
-  const std::filesystem::path given = std::getenv("SUNFLECK_SHARED_DATA") ? std::getenv("SUNFLECK_SHARED_DATA") : "";
+  const std::filesystem::path given =
+      std::getenv("SUNFLECK_SHARED_DATA") ? std::getenv("SUNFLECK_SHARED_DATA") : "";
   const StandSky sky =
       season_sky((given.empty() ? root : given) / "stands/cloture20/monthly_radiation.csv", season);
   std::printf("  %zu sun bins, %zu sky patches\n", sky.sun.size(), sky.sky.size());
@@ -123,8 +125,9 @@ void run(double hectares, int trees, int prototypes, int leaves, double voxel_m)
   lap.print("prepare");
   const WorldLight light = world_light(forest, prepared, sky, {});
   lap.print("sweeps");
-  std::printf("  incident %.6g = trees %.6g + ground %.6g (residual %.2g)\n", light.incident[0], light.trees[0],
-              light.ground[0], (light.incident[0] - light.trees[0] - light.ground[0]) / light.incident[0]);
+  std::printf("  incident %.6g = trees %.6g + ground %.6g (residual %.2g)\n", light.incident[0],
+              light.trees[0], light.ground[0],
+              (light.incident[0] - light.trees[0] - light.ground[0]) / light.incident[0]);
   if (hectares > 4) return;
   StandSceneOptions fine;
   fine.ground_cell_m = 2;
