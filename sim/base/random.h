@@ -28,7 +28,8 @@ enum class RandomPurpose : std::uint32_t {
   kProbeDraw,
   kProbePaths,
   kProbeSun,
-  kProbeResampling
+  kProbeResampling,
+  kSunRaster
 };
 
 // One stream of numbers: (seed, element, purpose) names it, next() walks it. Cheap to make, copy and skip.
