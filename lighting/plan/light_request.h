@@ -10,6 +10,7 @@
 #include "lighting/envelope/envelope_estimator.h"
 #include "lighting/optics/optics.h"
 #include "lighting/plan/auto_options.h"
+#include "lighting/plan/selection.h"
 #include "lighting/sky/illumination.h"
 #include "lighting/slab/spp_estimators.h"
 #include "lighting/trace/reference.h"
@@ -26,6 +27,9 @@ std::string to_string(Method method);  // reference, single_scattering, spp, spp
 Method method_from_string(const std::string& name, const std::string& where);  // throws, listing the names
 const std::vector<std::string>& method_names();
 
+// Whether work that cannot change the answer by more than a stated bound is left out, see plan.h.
+enum class Skipping { kAuto, kNever };
+
 // What changes the answer.
 struct LightRequest {
   Method method = Method::kReference;
@@ -36,6 +40,8 @@ struct LightRequest {
   EnvelopeOptions envelope;
   GridOptions grid;
   AutoOptions automatic;
+  Skipping skip = Skipping::kAuto;
+  Selection selection;  // the answer holds only these trees, numbered as in selected_forest()
   // Measures the error of the answer, whatever the method; `auto` always does, by the defaults if not given.
   std::optional<ProbePlan> probes;
 };

@@ -23,7 +23,8 @@ std::string setting(const LightMap& map, const std::string& key) {
 
 LightRequest automatic(double tolerance, AutoMeasure measure = AutoMeasure::kElementRms) {
   LightRequest r = sun_and_sky(Method::kAuto);
-  r.automatic = {tolerance, measure};
+  r.automatic.tolerance = tolerance;
+  r.automatic.measure = measure;
   return r;
 }
 
@@ -74,15 +75,15 @@ TEST(Auto, EndsWithTheReferenceForATightTolerance) {
   for (const std::size_t b : {0u, 1u}) EXPECT_LT(true_rms(forest, map, b), 0.055);
 }
 
-// Between the two: diffuse light from a cheap method, direct light by as many rays as the rest leaves room
-// for. Almost all light is direct here.
-TEST(Auto, TracesTheSunWhereThatIsEnough) {
+// Between the two: diffuse light from a cheap method, direct light as the sun sees it. Almost all light is
+// direct here.
+TEST(Auto, DrawsTheSunWhereThatIsEnough) {
   const Forest forest = crown();
   LightRequest r = automatic(0.12);
   r.light.bands = {{600, 10}, {600, 10}};
   r.optics.overrides = {{"*", "NIR", {{0.1, 0.1, 0.05, 0.05}, 0.1}}};
   const LightMap map = compute(forest, r);
-  EXPECT_NE(setting(map, "chosen_method").find("sun rays"), std::string::npos)
+  EXPECT_NE(setting(map, "chosen_method").find("drawn sun"), std::string::npos)
       << setting(map, "tried_methods");
   EXPECT_LE(std::stod(setting(map, "measured_element_rms.PAR")), 0.12);
 }
@@ -100,6 +101,50 @@ TEST(Auto, HoldsTheMeanForAToleranceOnBias) {
     EXPECT_NEAR(map.bands[b].mean_irradiance_w_m2, mean,
                 3 * map.bands[b].mean_irradiance_standard_error_w_m2);
   }
+}
+
+// Every tree's mean (or absorbed flux) against a reference of 256 rays.
+TEST(Auto, HoldsAToleranceOnTrees) {
+  const Forest forest = small_stand();
+  LightRequest asked = sun_and_sky(Method::kReference);
+  asked.reference.rays_per_face = asked.reference.sun_rays_per_element = 256;
+  const LightMap truth = compute(forest, asked);
+  for (const AutoMeasure measure : {AutoMeasure::kTreeRms, AutoMeasure::kTreeAbsorbedRms}) {
+    const LightMap map = compute(forest, automatic(0.15, measure));
+    EXPECT_NE(setting(map, "measured_" + to_string(measure) + ".PAR"), "");
+    for (const std::size_t b : {0u, 1u}) {
+      double squares = 0, mean = 0;
+      for (std::size_t t = 0; t < map.bands[b].trees.size(); ++t) {
+        const TreeLight &x = map.bands[b].trees[t], &y = truth.bands[b].trees[t];
+        const bool absorbed = measure == AutoMeasure::kTreeAbsorbedRms;
+        squares += std::pow(
+            absorbed ? x.absorbed_w - y.absorbed_w : x.mean_irradiance_w_m2 - y.mean_irradiance_w_m2, 2);
+        mean += absorbed ? y.absorbed_w : y.mean_irradiance_w_m2;
+      }
+      const auto n = static_cast<double>(map.bands[b].trees.size());
+      // 25 draws of trees know the RMS to about a quarter.
+      EXPECT_LT(std::sqrt(squares / n) / (mean / n), 1.25 * 0.15) << to_string(measure) << " " << b;
+    }
+  }
+}
+
+TEST(Auto, MeasuresLayers) {
+  LightRequest r = automatic(0.3, AutoMeasure::kLayerRms);
+  r.automatic.layers = 4;
+  const LightMap map = compute(crown(), r);
+  EXPECT_LE(std::stod(setting(map, "measured_layer_rms.PAR")), 0.3);
+}
+
+TEST(Auto, GivesTheBestWithinATimeAndSaysWhatItIsWorth) {
+  LightRequest r = sun_and_sky(Method::kAuto);
+  r.automatic.time_s = 0.4;
+  const LightMap map = compute(crown(), r);
+  EXPECT_EQ(setting(map, "time_s"), "0.4");
+  EXPECT_EQ(setting(map, "tolerance"), "");
+  EXPECT_NE(setting(map, "chosen_method"), "");
+  EXPECT_NE(setting(map, "measured_element_rms.NIR").find('['), std::string::npos);
+  for (const std::string& note : map.provenance.notes)
+    EXPECT_EQ(note.find("not reached"), std::string::npos) << note;
 }
 
 TEST(Auto, SaysWhenTheToleranceIsOutOfReach) {

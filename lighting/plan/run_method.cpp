@@ -1,0 +1,49 @@
+#include "lighting/plan/run_method.h"
+
+#include "sim/base/contract.h"
+
+namespace sunfleck {
+namespace {
+
+SppOptions spp_options(const LightRequest& request, SppVariant variant) {
+  SppOptions options = request.spp;
+  options.variant = variant;
+  return options;
+}
+
+EnvelopeOptions envelope_options(const LightRequest& request, EnvelopeSun sun) {
+  EnvelopeOptions options = request.envelope;
+  options.sun = sun;
+  return options;
+}
+
+}  // namespace
+
+LightMap run_method(const LightScene& scene, const OpticsTable& optics, const Illumination& light,
+                    const LightRequest& request, const RunControl& control) {
+  const Forest& forest = scene.forest;
+  switch (request.method) {
+    case Method::kReference:
+      return reference_light_map(forest, optics, light, request.reference, control, scene.store);
+    case Method::kSingleScattering:
+      return spp_light_map(forest, optics, light, spp_options(request, SppVariant::kSingleScattering),
+                           control);
+    case Method::kSpp:
+      return spp_light_map(forest, optics, light, spp_options(request, SppVariant::kSpp), control);
+    case Method::kSppG:
+      return spp_light_map(forest, optics, light, spp_options(request, SppVariant::kSppG), control);
+    case Method::kEnvelope:
+      return envelope_light_map(forest, optics, light, envelope_options(request, EnvelopeSun::kPublished),
+                                control);
+    case Method::kEnvelopeMarched:
+      return envelope_light_map(forest, optics, light, envelope_options(request, EnvelopeSun::kMarched),
+                                control);
+    case Method::kGrid:
+      return grid_light_map(forest, optics, light, request.grid, control);
+    case Method::kAuto:  // chooses among the others: auto_light_map()
+      break;
+  }
+  throw ContractViolation("not a method of its own");
+}
+
+}  // namespace sunfleck
