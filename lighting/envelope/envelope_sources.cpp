@@ -123,7 +123,7 @@ Sources sources(const Forest& forest, const OpticsTable& optics, const Illuminat
   if (border == EnvelopeBorder::kLevel || (border == EnvelopeBorder::kByScene && forest.period))
     s.level_normal = forest.terrain.normal();
   if (sun) set_sun(s, parts, control);
-  const SectorSky sky = sector_sky(parts.set, light.sky, forest.terrain.normal());
+  const SectorSky sky = sector_sky(parts.set, sky_radiance(light), forest.terrain.normal());
   for (const double share : sky.ground_share) s.ground_share.push_back(static_cast<float>(share));
   const double ground_cosine = sun ? std::max(0.0, glm::dot(light.to_sun, forest.terrain.normal())) : 0.0;
   for (std::size_t b = 0; b < light.bands.size(); ++b)

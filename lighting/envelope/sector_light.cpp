@@ -88,11 +88,11 @@ FaceLight face_light(const LeafTransfer& leaf, const std::array<double, 8>& face
 
 }  // namespace
 
-double octant_sky_radiance(SkyModel model) {
+double octant_sky_radiance(const SkyRadiance& sky) {
   // Mean over solid angle: even steps of the cosine. Midpoints are exact for radiance linear in it.
   constexpr int kSteps = 64;
   double sum = 0.0;
-  for (int i = 0; i < kSteps; ++i) sum += relative_sky_radiance(model, (i + 0.5) / kSteps);
+  for (int i = 0; i < kSteps; ++i) sum += sky.ring_mean((i + 0.5) / kSteps);
   return sum / kSteps;
 }
 
@@ -115,7 +115,7 @@ SectorLight sector_light(const Forest& forest, const OpticsTable& optics, const 
   SectorLight sectors{
       .sun = sun, .to_sun = light.to_sun, .bands = std::vector<BandSectors>(light.bands.size())};
   if (sun) sectors.approach = sun_approach(light.to_sun, method);
-  const double sky_radiance = octant_sky_radiance(light.sky);
+  const double sky_radiance = octant_sky_radiance(sunfleck::sky_radiance(light));
   const double ground_cosine = sun ? std::max(0.0, glm::dot(light.to_sun, forest.terrain.normal())) : 0.0;
   for (std::size_t b = 0; b < light.bands.size(); ++b) {
     BandSectors& band = sectors.bands[b];

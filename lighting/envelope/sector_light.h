@@ -22,7 +22,7 @@ namespace sunfleck::envelope {
 inline constexpr double kSectorSolidAngle = 0.5 * kPi;
 
 // Mean of a sky model's relative radiance over an octant above the horizon, 1/sr.
-double octant_sky_radiance(SkyModel model);
+double octant_sky_radiance(const SkyRadiance& sky);
 
 // What one band brings, no leaf in the way.
 struct BandSectors {

@@ -131,14 +131,14 @@ SectorSet layered_sectors(int count, const Vec3& pole) {
   return set;
 }
 
-SectorSky sector_sky(const SectorSet& set, SkyModel sky, const Vec3& ground_normal) {
+SectorSky sector_sky(const SectorSet& set, const SkyRadiance& sky, const Vec3& ground_normal) {
   SectorSky result{.sky_radiance = std::vector<double>(set.count()),
                    .ground_share = std::vector<double>(set.count()),
                    .open_ground_irradiance = 0.0};
   std::vector<double> counted(set.count());
   for_each_lattice_direction([&](const Vec3& v) {
     const double above = glm::dot(v, ground_normal);
-    const double radiance = above > 0.0 ? relative_sky_radiance(sky, v.z) : 0.0;
+    const double radiance = above > 0.0 ? sky.radiance(v) : 0.0;
     result.open_ground_irradiance += 4.0 * kPi / (kCosines * kTurns) * std::max(0.0, above) * radiance;
     const auto sharing = nearest(set, v);
     for (const std::size_t j : sharing) {

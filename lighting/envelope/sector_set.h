@@ -38,6 +38,6 @@ struct SectorSky {
   std::vector<double> ground_share;  // of that part, [0, 1]
   double open_ground_irradiance = 1;
 };
-SectorSky sector_sky(const SectorSet& set, SkyModel sky, const Vec3& ground_normal);
+SectorSky sector_sky(const SectorSet& set, const SkyRadiance& sky, const Vec3& ground_normal);
 
 }  // namespace sunfleck::envelope

@@ -40,6 +40,10 @@ Settings describe_light(const Forest& forest, const LightRequest& request) {
                        {"light.sun_azimuth_deg", number(degrees_from_radians(azimuth_of(light.to_sun)))},
                        {"light.sun_half_angle_deg", number(degrees_from_radians(light.sun_half_angle_rad))},
                        {"light.sky", to_string(light.sky)}};
+  if (light.sky == SkyModel::kPerez) {
+    settings.emplace_back("light.sky_clearness", number(light.sky_clearness));
+    settings.emplace_back("light.sky_brightness", number(light.sky_brightness));
+  }
   for (std::size_t b = 0; b < optics.band_count(); ++b) {
     const std::string name = "light." + optics.bands()[b] + ".";
     settings.emplace_back(name + "beam_normal_w_m2", number(light.bands[b].beam_normal_w_m2));

@@ -28,6 +28,16 @@ Vec3 read_to_sun(const ConfigTable& sun) {
                                        radians_from_degrees(sun.number("zenith_deg", {0, 180})));
 }
 
+void read_sky(const ConfigTable& sky, Illumination& light) {
+  const std::string model = sky.choice("model", {"uniform", "standard_overcast", "perez"});
+  light.sky = model == "uniform" ? SkyModel::kUniform
+              : model == "perez" ? SkyModel::kPerez
+                                 : SkyModel::kStandardOvercast;
+  if (light.sky != SkyModel::kPerez) return;
+  light.sky_clearness = sky.number("clearness", {1, 1000});
+  light.sky_brightness = sky.number("brightness", {0, 1});
+}
+
 BandLight read_strengths(const ConfigTable& band, const Vec3& to_sun) {
   constexpr Range kStrength{0, 1e6};
   BandLight light;
@@ -145,10 +155,7 @@ LightRequest read_light_request(const ConfigTable& table) {
     light.to_sun = read_to_sun(*sun);
     light.sun_half_angle_rad = radians_from_degrees(sun->number_or("half_angle_deg", 0.265, {0, 5}));
   }
-  if (const auto sky = table.table_if("sky"))
-    light.sky = sky->choice("model", {"uniform", "standard_overcast"}) == "uniform"
-                    ? SkyModel::kUniform
-                    : SkyModel::kStandardOvercast;
+  if (const auto sky = table.table_if("sky")) read_sky(*sky, light);
   for (const ConfigTable& band : table.tables("bands")) {
     request.optics.bands.push_back(band.text("name"));
     request.optics.soil_albedo.push_back(band.number_or("soil_albedo", 0.15, {0, 1}));

@@ -11,7 +11,9 @@ namespace sunfleck {
 //   skip                                       "auto" or "never"
 //   [light.sun]  zenith_deg, azimuth_deg       or latitude_deg, longitude_deg, time (with elevation_m, ...)
 //                half_angle_deg
-//   [light.sky]  model                         "uniform" or "standard_overcast"
+//   [light.sky]  model                         "uniform", "standard_overcast" or "perez" (with clearness, 1
+//   overcast
+//                                to over 6.2 clear, and brightness, 0.05 dark to 0.6 bright)
 //   [[light.bands]] name, soil_albedo, diffuse_horizontal_w_m2,
 //                direct_horizontal_w_m2 or beam_normal_w_m2
 //   [[light.optics]] material, band, leaf_reflectance, leaf_transmittance (or ..._front, ..._back),

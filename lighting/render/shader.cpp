@@ -48,6 +48,7 @@ Shader::Shader(const Forest& forest, const ForestIndex& index, const OpticsTable
       optics_(optics),
       map_(map),
       light_(light),
+      sky_(sky_radiance(light)),
       scene_(scene),
       band_(picture_band(optics)),
       colour_(picture_colour(optics.bands()[band_] == kPar ? PictureBand::kPar : PictureBand::kOther, light,
@@ -136,8 +137,7 @@ Vec3 Shader::sun_irradiance(const RayHit& hit, RandomStream& random) const {
 }
 
 Vec3 Shader::sky(const Vec3& direction) const {
-  return light_.bands[band_].diffuse_horizontal_w_m2 * relative_sky_radiance(light_.sky, direction.z) *
-         colour_.sky_tint;
+  return light_.bands[band_].diffuse_horizontal_w_m2 * sky_.radiance(direction) * colour_.sky_tint;
 }
 
 // Below the horizon and past the edge of falling ground, the picture goes on with the sky of the horizon.

@@ -44,6 +44,7 @@ class Shader {
   const OpticsTable& optics_;
   const LightMap& map_;
   const Illumination& light_;
+  const SkyRadiance sky_;
   const RayScene& scene_;
   std::size_t band_;
   PictureColour colour_;

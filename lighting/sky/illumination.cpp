@@ -1,6 +1,7 @@
 #include "lighting/sky/illumination.h"
 
 #include <cmath>
+#include <cstdio>
 
 #include "sim/base/error.h"
 
@@ -26,6 +27,18 @@ void check_weather(const Illumination& light) {
 SkyRadiance sky_radiance(const Illumination& light) {
   if (light.sky != SkyModel::kPerez) return SkyRadiance(light.sky);
   return SkyRadiance(PerezSky{light.to_sun, light.sky_clearness, light.sky_brightness});
+}
+
+std::string sky_key(const Illumination& light) {
+  std::string key = to_string(light.sky);
+  if (light.sky != SkyModel::kPerez) return key;
+  for (const double part :
+       {light.to_sun.x, light.to_sun.y, light.to_sun.z, light.sky_clearness, light.sky_brightness}) {
+    char text[32];
+    std::snprintf(text, sizeof text, " %a", part);  // every bit
+    key += text;
+  }
+  return key;
 }
 
 Illumination checked(Illumination light, std::size_t band_count) {

@@ -30,6 +30,8 @@ struct Illumination {
 
 // The sky of an illumination as a function of direction, for a diffuse irradiance of 1.
 SkyRadiance sky_radiance(const Illumination& light);
+// Equal for lights with the same sky, and only for those.
+std::string sky_key(const Illumination& light);
 
 // Throws Error(kInvalidInput) naming "illumination.<field>": to_sun not finite or of length 0 (else it is
 // returned normalised), strengths negative or not finite, number of bands wrong, half angle outside [0, 5]

@@ -13,7 +13,7 @@ namespace sunfleck {
 class SkyRadiance {
  public:
   SkyRadiance() = default;                    // uniform
-  explicit SkyRadiance(SkyModel model);       // a model that knows zenith angles only
+  SkyRadiance(SkyModel model);                // a model that knows zenith angles only
   explicit SkyRadiance(const PerezSky& sky);  // normalised by a sum over 8,000 directions, to 0.03 %
 
   SkyModel model() const { return model_; }

@@ -93,12 +93,13 @@ void add_source(const float* __restrict down, const float* __restrict up, const 
 
 }  // namespace
 
-std::vector<double> sky_sources(const SampleDirections& directions, SkyModel sky, const Vec3& ground_normal) {
+std::vector<double> sky_sources(const SampleDirections& directions, const SkyRadiance& sky,
+                                const Vec3& ground_normal) {
   std::vector<double> sources;
   double on_plane = 0.0;
   for (std::size_t j = 0; j < directions.axes(); ++j) {
     const double cos_zenith = directions.upward(j).z;
-    sources.push_back(relative_sky_radiance(sky, cos_zenith));
+    sources.push_back(sky.ring_mean(cos_zenith));
     on_plane += sources.back() * cos_zenith;
   }
   for (std::size_t j = 0; j < directions.axes(); ++j)

@@ -19,7 +19,8 @@ namespace sunfleck {
 // Normal irradiance of each axis for a diffuse horizontal irradiance of 1: solid angle times relative
 // radiance, scaled so that an open horizontal plane gets exactly 1. 0 for directions below the horizon of the
 // slope.
-std::vector<double> sky_sources(const SampleDirections& directions, SkyModel sky, const Vec3& ground_normal);
+std::vector<double> sky_sources(const SampleDirections& directions, const SkyRadiance& sky,
+                                const Vec3& ground_normal);
 
 // Scattered light in a cell for a diffuse horizontal irradiance of 1. A face with normal n gets
 // sum / 4 + dot(n, drift) / 4, the two faces together sum / 2.

@@ -106,7 +106,7 @@ class Estimate {
     sky_.resize(optics_.band_count());
     if (!has_sky_) return;
     const CellDepths& cells = prepared_->cells;
-    sources_ = sky_sources(cells.directions, light_.sky, forest_.terrain.normal());
+    sources_ = sky_sources(cells.directions, sky_radiance(light_), forest_.terrain.normal());
     for (std::size_t b = 0; b < sky_.size(); ++b)
       if (light_.bands[b].diffuse_horizontal_w_m2 > 0.0 && !is(SppVariant::kSingleScattering))
         sky_[b] = scattered_sky_light(

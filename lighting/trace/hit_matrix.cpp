@@ -16,7 +16,7 @@ RandomPurpose purpose_of(HitKind kind, bool front) {
 
 class RowTracer {
  public:
-  RowTracer(HitMatrix& matrix, const RayScene& scene, const Receivers& receivers, SkyModel sky,
+  RowTracer(HitMatrix& matrix, const RayScene& scene, const Receivers& receivers, const SkyRadiance& sky,
             std::uint64_t seed)
       : matrix_(matrix), scene_(scene), receivers_(receivers), sky_(sky), seed_(seed) {}
 
@@ -39,7 +39,7 @@ class RowTracer {
     const auto group = group_of(face, k);
     ++matrix_.lost[face][group];
     if (met != receivers_.sky()) return;
-    const auto light = static_cast<float>(kPi * relative_sky_radiance(sky_, direction.z));
+    const auto light = static_cast<float>(kPi * sky_.radiance(direction));
     matrix_.sky[face][group] += light;
     matrix_.sky_squares[face] += light * light;
   }
@@ -47,7 +47,7 @@ class RowTracer {
   HitMatrix& matrix_;
   const RayScene& scene_;
   const Receivers& receivers_;
-  SkyModel sky_;
+  const SkyRadiance& sky_;
   std::uint64_t seed_;
 };
 
@@ -73,7 +73,7 @@ std::uint64_t hit_matrix_bytes(std::size_t faces, int rays) {
 }
 
 void extend(HitMatrix& matrix, int rays, const RayScene& scene, const Receivers& receivers,
-            std::span<const std::uint32_t> order, SkyModel sky, std::uint64_t seed,
+            std::span<const std::uint32_t> order, const SkyRadiance& sky, std::uint64_t seed,
             const RunControl& control) {
   constexpr int kBlock = 512;  // rays between two looks at the stop token
   const int before = matrix.rays;

@@ -34,7 +34,7 @@ std::uint64_t hit_matrix_bytes(std::size_t faces, int rays);
 
 // Traces rays number matrix.rays .. rays - 1 of every face, surface by surface in the given order.
 void extend(HitMatrix& matrix, int rays, const RayScene& scene, const Receivers& receivers,
-            std::span<const std::uint32_t> order, SkyModel sky, std::uint64_t seed,
+            std::span<const std::uint32_t> order, const SkyRadiance& sky, std::uint64_t seed,
             const RunControl& control);
 
 }  // namespace sunfleck::trace

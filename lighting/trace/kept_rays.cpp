@@ -56,15 +56,16 @@ std::shared_ptr<const Surfaces> KeptRays::plain_surfaces() const {
       [&] { return std::make_shared<const Surfaces>(forest_, GroundCells{}, false); }, surfaces_bytes);
 }
 
-std::shared_ptr<const HitMatrix> KeptRays::matrix(const Knobs& knobs, SkyModel sky, int rays,
+std::shared_ptr<const HitMatrix> KeptRays::matrix(const Knobs& knobs, const Illumination& light, int rays,
                                                   const HitMatrix* before) const {
   return store_.get<HitMatrix>(
-      knobs_key("hit matrix", knobs).add("sky", to_string(sky)).add("rays", rays), control_,
+      knobs_key("hit matrix", knobs).add("sky", sky_key(light)).add("rays", rays), control_,
       [&] {
         const auto surfaces = this->surfaces(knobs.ground, knobs.ground_cell_m);
         const auto scene = this->scene(knobs.ground);
         auto matrix = before ? std::make_shared<HitMatrix>(*before) : std::make_shared<HitMatrix>();
-        extend(*matrix, rays, *scene, surfaces->receivers, surfaces->order, sky, knobs.seed, control_);
+        extend(*matrix, rays, *scene, surfaces->receivers, surfaces->order, sky_radiance(light), knobs.seed,
+               control_);
         return std::shared_ptr<const HitMatrix>(std::move(matrix));
       },
       [](const HitMatrix& m) {

@@ -43,7 +43,7 @@ class KeptRays {
     std::uint64_t seed = 1;
   };
   // With `rays` per face. What `before` holds (of the same knobs and sky; null: nothing) is not traced again.
-  std::shared_ptr<const HitMatrix> matrix(const Knobs& knobs, SkyModel sky, int rays,
+  std::shared_ptr<const HitMatrix> matrix(const Knobs& knobs, const Illumination& light, int rays,
                                           const HitMatrix* before) const;
   std::shared_ptr<const SunLight> sun(const Knobs& knobs, const Illumination& light, int rays,
                                       const SunLight* before) const;

@@ -40,6 +40,7 @@ PathTracer::PathTracer(const Forest& forest, const RayScene& rays, const OpticsT
       rays_(rays),
       optics_(optics),
       light_(light),
+      sky_(sky_radiance(light)),
       sun_facing_(sun_facing_factor(light)),
       any_beam_(has_beam(light)),
       weight_(optics.band_count()) {
@@ -71,7 +72,7 @@ PathLight PathTracer::follow(Vec3 origin_m, Vec3 direction, RayStart from, Rando
 }
 
 void PathTracer::add_sky(const Vec3& direction, std::vector<double>& to) const {
-  const double share = kPi * relative_sky_radiance(light_.sky, direction.z);
+  const double share = kPi * sky_.radiance(direction);
   for (std::size_t b = 0; b < to.size(); ++b)
     to[b] += weight_[b] * share * light_.bands[b].diffuse_horizontal_w_m2;
 }

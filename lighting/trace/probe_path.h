@@ -46,6 +46,7 @@ class PathTracer {
   const RayScene& rays_;
   const OpticsTable& optics_;
   const Illumination& light_;
+  const SkyRadiance sky_;
   const double sun_facing_;
   bool any_beam_;
   std::vector<double> weight_;  // of what is still to be found, per band

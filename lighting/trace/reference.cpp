@@ -94,7 +94,7 @@ class Reference {
  private:
   void trace_rays() {
     const StageTimer timer(map_.provenance, "tracing rays");
-    matrix_ = kept_.matrix(knobs_, light_.sky, rays_, matrix_.get());
+    matrix_ = kept_.matrix(knobs_, light_, rays_, matrix_.get());
   }
 
   void trace_sun() {

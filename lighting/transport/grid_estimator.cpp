@@ -46,7 +46,7 @@ class GridEstimate {
         control_(control) {
     SUNFLECK_EXPECTS(scene_.field->elements().size() == index_.element_count());
     SUNFLECK_EXPECTS(!sources.sun || sources.sun->to_sun == light_.to_sun);
-    SUNFLECK_EXPECTS(sky_.model == light_.sky);
+    SUNFLECK_EXPECTS(sky_.key == sky_key(light_));
   }
 
   LightMap run() {

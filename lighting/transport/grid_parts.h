@@ -1,6 +1,8 @@
 // The parts of GridSources: see grid_estimator.h.
 #pragma once
 
+#include <string>
+
 #include "lighting/transport/direct_sun.h"
 #include "lighting/transport/transport_scene.h"
 
@@ -12,7 +14,7 @@ struct GridSun {
 };
 
 struct GridSky {
-  SkyModel model = SkyModel::kUniform;
+  std::string key;  // sky_key() of its light
   SkySectors sectors;
   bool swept = false;                 // false: nothing but the sectors
   std::vector<float> radiance;        // sky_radiance(); zeros if not swept

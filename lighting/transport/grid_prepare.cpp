@@ -81,9 +81,9 @@ GridSources grid_sources(const Forest& forest, const Illumination& light, const 
         GridSun{checked_light.to_sun, direct_sun(scene, forest, checked_light.to_sun, control)});
   }
   const bool needed = any(light, &BandLight::diffuse_horizontal_w_m2);
-  if (before.sky && before.sky->model == light.sky && (before.sky->swept || !needed)) return sources;
-  GridSky sky{.model = light.sky,
-              .sectors = sky_sectors(scene.set, light.sky, forest.terrain.normal()),
+  if (before.sky && before.sky->key == sky_key(light) && (before.sky->swept || !needed)) return sources;
+  GridSky sky{.key = sky_key(light),
+              .sectors = sky_sectors(scene.set, sky_radiance(light), forest.terrain.normal()),
               .swept = needed,
               .radiance = {},
               .on_elements = {}};

@@ -46,7 +46,7 @@ void set_ground_weights(SkySectors& sectors, const DirectionSet& set, const Vec3
 
 }  // namespace
 
-SkySectors sky_sectors(const DirectionSet& set, SkyModel sky, const Vec3& ground_normal) {
+SkySectors sky_sectors(const DirectionSet& set, const SkyRadiance& sky, const Vec3& ground_normal) {
   SkySectors sectors;
   sectors.sky_radiance.assign(set.count(), 0.0);
   sectors.ground_share.assign(set.count(), 0.0);
@@ -54,7 +54,7 @@ SkySectors sky_sectors(const DirectionSet& set, SkyModel sky, const Vec3& ground
   std::vector<double> counted(set.count(), 0.0);
   for_each_lattice_direction([&](const Vec3& v) {
     const double above = glm::dot(v, ground_normal);
-    const double radiance = above > 0.0 ? relative_sky_radiance(sky, v.z) : 0.0;
+    const double radiance = above > 0.0 ? sky.radiance(v) : 0.0;
     sectors.open_ground_irradiance += 4.0 * kPi / (kCosines * kTurns) * std::max(0.0, above) * radiance;
     const auto sharing = nearest(set, v);
     for (const std::size_t j : sharing) {

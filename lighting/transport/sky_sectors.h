@@ -21,6 +21,6 @@ struct SkySectors {
 };
 
 // `ground_normal` is unit, upwards.
-SkySectors sky_sectors(const DirectionSet& set, SkyModel sky, const Vec3& ground_normal);
+SkySectors sky_sectors(const DirectionSet& set, const SkyRadiance& sky, const Vec3& ground_normal);
 
 }  // namespace sunfleck::transport

@@ -316,7 +316,7 @@ void add_budget(const WorldScene& scene, const WorldSources& sources, const Band
 WorldSources world_sources(const WorldScene& scene, const Forest& forest, const Illumination& light,
                            const RunControl& control) {
   WorldSources sources;
-  sources.sectors = sky_sectors(scene.set, light.sky, forest.terrain.normal());
+  sources.sectors = sky_sectors(scene.set, sky_radiance(light), forest.terrain.normal());
   if (std::ranges::any_of(light.bands, [](const BandLight& b) { return b.diffuse_horizontal_w_m2 > 0; })) {
     sources.sky.assign(scene.set.count() * scene.cells(), 0.0f);
     sources.sky_around.resize(scene.set.count());
