@@ -1,11 +1,13 @@
 // Accuracy and time of the grid method against traced light: crowns of several shapes and leaf angles, cells
 // of several sizes. The reference's own scatter is measured (its standard errors) and taken out of the RMS.
-//   grid_accuracy [leaves] [rays per face] [cell in leaf sides, 0: the rule] [directions]
+//   grid_accuracy [leaves] [rays per face] [cell in leaf sides, 0: the rule] [directions] [one shape, or
+//   "grown" for the trees of the grammars; run in the root of the repository]
 #include <cstdlib>
 #include <iomanip>
 #include <iostream>
 
 #include "lighting/transport/grid_limits.h"
+#include "sim/plant/make_prototype.h"
 #include "tests/lighting/transport/world_stand.h"
 
 namespace sunfleck::test {
@@ -63,6 +65,17 @@ void measure(const std::string& name, Forest forest, int rays, double sides, int
   }
 }
 
+// Trees of the grammars, open-grown, with few enough leaves for the reference.
+Forest grown(const std::string& species_file) {
+  const Species species = load_species(std::string("configs/species/") + species_file + ".toml");
+  Forest forest;
+  forest.prototypes.push_back(grow_prototype(species, expected_size(species, 18.0), 1, 1.0));
+  for (const std::string& name : forest.prototypes[0].materials) forest.materials.push_back({name, {}});
+  forest.instances.emplace_back();
+  std::cout << species_file << ": " << forest.prototypes[0].foliage.size() << " elements\n";
+  return forest;
+}
+
 int run(int argc, char** argv) {
   const auto number = [&](int i, double usual) { return argc > i ? std::atof(argv[i]) : usual; };
   const int leaves = static_cast<int>(number(1, 40000)), rays = static_cast<int>(number(2, 96));
@@ -71,6 +84,11 @@ int run(int argc, char** argv) {
     return generated_crown({.kind = kind, .leaves = leaves, .crown_lai = 5, .seed = 5});
   };
   const std::string only = argc > 5 ? argv[5] : "";
+  if (only == "grown") {
+    for (const char* name : {"fagus_sylvatica", "pinus_sylvestris", "picea_abies"})
+      measure(name, grown(name), rays, 0.0, directions);
+    return 0;
+  }
   std::cout << "%                               bias    leaf     rms   noise rms-noi    cell  direct\n";
   for (const auto& [name, forest] :
        {std::pair{"clumped", crown(CrownKind::kClumped)}, std::pair{"sphere", crown(CrownKind::kSphere)},
