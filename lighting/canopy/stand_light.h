@@ -10,7 +10,7 @@
 // per optical band. Sensor tables hold unscattered light, as hemispherical photographs do.
 //
 // Small and middle stands: cost follows the rays (about a million per second and core). For stands of tens of
-// thousands of trees see world_light.h.
+// thousands of trees see large_stand_light.h.
 #pragma once
 
 #include <cstdint>
