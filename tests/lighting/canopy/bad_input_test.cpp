@@ -114,6 +114,7 @@ TEST(BadRequest, IsRefused) {
     };
   };
   expect_refused("rays_per_cell", "out of range", with([](auto& r) { r.rays_per_cell = 0; }));
+  expect_refused("tree_relative_error", "out of range", with([](auto& r) { r.tree_relative_error = -1; }));
   expect_refused("potential_rays", "out of range", with([](auto& r) { r.potential_rays = 0; }));
   expect_refused("sensor_rays", "out of range", with([](auto& r) { r.sensor_sky_rays = 0; }));
   expect_refused("canopy.last_zenith_deg", "out of range", with([](auto& r) {

@@ -133,6 +133,19 @@ TEST(StandLight, ATreeAloneHasNoCompetition) {
               1e-5 * light.plot.sent[0]);
 }
 
+TEST(StandLight, TakesAsManyRaysAsTheErrorAskedForNeeds) {
+  const Forest forest = small_stand(true);
+  StandLightRequest r = request(50);
+  const StandLight coarse = light_of(forest, r);
+  r.tree_relative_error = 0.01;
+  const StandLight fine = light_of(forest, r);
+  for (std::size_t t = 0; t < 3; ++t) {
+    EXPECT_GT(coarse.trees.intercepted.error_at(0, t), 0.02f * coarse.trees.intercepted.at(0, t));
+    // The pilot's own estimate is rough.
+    EXPECT_LT(fine.trees.intercepted.error_at(0, t), 0.013f * fine.trees.intercepted.at(0, t));
+  }
+}
+
 TEST(StandLight, AgreesWithTheReference) {
   const Forest forest = small_stand(true);
   const StandLight light = light_of(forest, request(20'000));
