@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "lighting/canopy/box_sweep.h"
 #include "lighting/canopy/crown_rays.h"
-#include "lighting/canopy/world_sweep.h"
 #include "sim/base/parallel.h"
 
 namespace sunfleck {
@@ -14,7 +14,7 @@ namespace sunfleck {
 namespace {
 
 constexpr std::array<double, 7> kZenithDeg{0, 20, 40, 55, 68, 78, 86};
-constexpr std::array<double, 3> kAzimuthDeg{15, 135, 255};
+constexpr std::array<double, 6> kAzimuthDeg{15, 75, 135, 195, 255, 315};
 constexpr double kMostShown = 4;  // m2 per m2; above it a crown is opaque in any box
 
 double between(const std::vector<double>& x, const std::vector<double>& y, double at) {
@@ -28,7 +28,7 @@ double between(const std::vector<double>& x, const std::vector<double>& y, doubl
 }
 
 // Interception in boxes rises with what the area shows; bisection.
-double fitted_shown(WorldSweep& sweep, const std::vector<Vec3>& suns, double wanted_m2,
+double fitted_shown(BoxSweep& sweep, const std::vector<Vec3>& suns, double wanted_m2,
                     const RunControl& control) {
   double lo = 0.0, hi = kMostShown;
   for (int step = 0; step < 16; ++step) {
@@ -46,8 +46,8 @@ double fitted_shown(WorldSweep& sweep, const std::vector<Vec3>& suns, double wan
 CrownOptics optics_of(const CrownAlone& crown, const CrownOpticsOptions& options, std::size_t prototype,
                       const RunControl& control) {
   CrownOptics optics;
-  const WorldCanopy canopy = world_canopy(crown.forest(), options.voxel_m, control);
-  WorldSweep sweep(canopy);
+  const BoxCanopy canopy = box_canopy(crown.forest(), options.voxel_m, control);
+  BoxSweep sweep(canopy);
   RandomStream random(options.seed, prototype, RandomPurpose::kStandRays);
   for (const double zenith_deg : kZenithDeg) {
     std::vector<Vec3> suns;

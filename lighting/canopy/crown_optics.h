@@ -1,12 +1,12 @@
 // What a prototype takes from parallel light when it stands alone, traced through its real leaves and wood,
-// and what each m2 of its area must show in the boxes of a WorldCanopy to take the same: leaf angles and
+// and what each m2 of its area must show in the boxes of a BoxCanopy to take the same: leaf angles and
 // clumping below the size of a box are both in that number.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "lighting/canopy/world_canopy.h"
+#include "lighting/canopy/box_canopy.h"
 
 namespace sunfleck {
 
@@ -22,7 +22,7 @@ struct CrownOptics {
 
 struct CrownOpticsOptions {
   double voxel_m = 1;
-  int rays = 2000;  // over a rectangle round the crown's shadow, per zenith and azimuth
+  int rays = 1000;  // over a rectangle round the crown's shadow, per zenith and azimuth
   std::uint64_t seed = 1;
 };
 

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "sim/base/contract.h"
 #include "sim/base/error.h"
 
 namespace sunfleck {
@@ -67,6 +69,23 @@ WeightRows weight_rows(std::span<const double> matrix, std::size_t intervals, st
     rows.end_row();
   }
   return rows;
+}
+
+LightSource sun_bins(std::span<const Vec3> to_sun, std::span<const double> half_angle_rad,
+                     WeightRows beam_normal) {
+  return {
+      {to_sun.begin(), to_sun.end()}, {half_angle_rad.begin(), half_angle_rad.end()}, std::move(beam_normal)};
+}
+
+LightSource sky_patches(std::span<const Vec3> to_source, std::span<const double> solid_angle_sr,
+                        WeightRows radiance) {
+  SUNFLECK_EXPECTS(to_source.size() == solid_angle_sr.size());
+  LightSource source{{to_source.begin(), to_source.end()}, {}, std::move(radiance)};
+  for (const double solid_angle : solid_angle_sr)
+    source.half_angle_rad.push_back(cone_half_angle_rad(solid_angle));
+  for (std::size_t i = 0; i < source.strength.column.size(); ++i)
+    source.strength.value[i] *= solid_angle_sr[source.strength.column[i]];
+  return source;
 }
 
 double cone_half_angle_rad(double solid_angle_sr) {

@@ -46,6 +46,13 @@ struct StandSky {
   std::vector<std::string> intervals;  // labels, one per row of both
 };
 
+// Sources from what a sky model gives: rows as in WeightRows, values beam energy on a facing plane (sun) or
+// radiance (sky patches, times solid angle here). Spans of one length per table; half angles may be empty.
+LightSource sun_bins(std::span<const Vec3> to_sun, std::span<const double> half_angle_rad,
+                     WeightRows beam_normal);
+LightSource sky_patches(std::span<const Vec3> to_source, std::span<const double> solid_angle_sr,
+                        WeightRows radiance);
+
 // Half angle of the cone of that solid angle.
 double cone_half_angle_rad(double solid_angle_sr);
 

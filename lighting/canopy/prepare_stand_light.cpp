@@ -14,6 +14,10 @@ void check(const StandLightRequest& r) {
   if (!(r.rays_per_cell > 0.0 && r.rays_per_cell <= 1e7))
     throw_invalid("stand_light.rays_per_cell", std::to_string(r.rays_per_cell) + " is out of range",
                   "more than 0, at most 10,000,000");
+  if (!(r.tree_relative_error >= 0.0 && r.tree_relative_error <= 1.0))
+    throw_invalid("stand_light.tree_relative_error",
+                  std::to_string(r.tree_relative_error) + " is out of range",
+                  "0 to 1; 0 for exactly rays_per_cell");
   if (r.potential_rays < 1 || r.potential_rays > 10'000'000)
     throw_invalid("stand_light.potential_rays", std::to_string(r.potential_rays) + " is out of range",
                   "1 to 10,000,000");
@@ -27,6 +31,26 @@ std::vector<double> ground_energy(const LightSource& source, const StandGround& 
   std::vector<double> energy = total_strength(source);
   for (std::size_t d = 0; d < energy.size(); ++d) energy[d] *= ground.facing(source.to_source[d]);
   return energy;
+}
+
+// 95th percentile over the trees of the relative standard error of what they intercept in all intervals.
+double tree_error(const DirectionalBasis& basis) {
+  const std::size_t trees = basis.from_sun.tree_intercepted_m2.targets;
+  std::vector<double> value(trees), variance(trees), relative;
+  const auto add = [&](const ResponseTable& table, const std::vector<double>& strength) {
+    for (std::size_t d = 0; d < table.directions; ++d)
+      for (std::size_t t = 0; t < trees; ++t) {
+        value[t] += strength[d] * table.row(d)[t];
+        variance[t] += strength[d] * strength[d] * table.quantum[d] * table.row(d)[t];
+      }
+  };
+  add(basis.from_sun.tree_intercepted_m2, total_strength(basis.sky.sun));
+  add(basis.from_sky.tree_intercepted_m2, total_strength(basis.sky.sky));
+  for (std::size_t t = 0; t < trees; ++t)
+    relative.push_back(value[t] > 0.0 ? std::sqrt(variance[t]) / value[t] : 1.0);
+  const auto place = relative.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(trees - 1));
+  std::nth_element(relative.begin(), place, relative.end());
+  return *place;
 }
 
 // Half of the rays by energy, half evenly over the directions that bring any.
@@ -54,13 +78,24 @@ DirectionalBasis prepare_stand_light(const StandScene& scene, const OpticsTable&
       total += e;
       directions += e > 0.0 ? 1.0 : 0.0;
     }
-  const double rays = request.rays_per_cell * static_cast<double>(scene.ground().count());
+  double rays = request.rays_per_cell * static_cast<double>(scene.ground().count());
   const auto options = [&](const std::vector<double>& energy, std::uint64_t part) {
-    return DropOptions{mix_seed(request.seed, part), share_out(energy, total, directions, rays),
-                       request.scattering};
+    return DropOptions{mix_seed(request.seed, part), share_out(energy, total, directions, rays)};
   };
-  basis.from_sun = drop_light(scene, optics, basis.sky.sun, options(sun, 1), control);
-  basis.from_sky = drop_light(scene, optics, basis.sky.sky, options(sky, 2), control);
+  const auto drop = [&](bool bounces) {
+    DropOptions from_sun = options(sun, 1), from_sky = options(sky, 2);
+    from_sun.bounces = from_sky.bounces = bounces;
+    basis.from_sun = drop_light(scene, optics, basis.sky.sun, from_sun, control);
+    basis.from_sky = drop_light(scene, optics, basis.sky.sky, from_sky, control);
+  };
+  if (request.tree_relative_error > 0.0 && total > 0.0) {
+    // A quarter of the rays tells how many it takes.
+    rays *= 0.25;
+    drop(false);
+    const double off = tree_error(basis) / request.tree_relative_error;
+    rays *= std::clamp(off * off, 4.0, 400.0);
+  }
+  drop(request.scattering);
   const auto potential = [&](const LightSource& source, const std::vector<double>& energy,
                              std::uint64_t part) {
     const std::vector<double> share = share_out(energy, total, directions, request.potential_rays);

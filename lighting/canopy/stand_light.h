@@ -10,7 +10,7 @@
 // per optical band. Sensor tables hold unscattered light, as hemispherical photographs do.
 //
 // Small and middle stands: cost follows the rays (about a million per second and core). For stands of tens of
-// thousands of trees see world_light.h.
+// thousands of trees see large_stand_light.h.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,11 @@ struct StandLightRequest {
   CanopyOptions canopy;
   // Cost. Rays per ground cell over all directions together, shared out half by energy, half evenly.
   double rays_per_cell = 1000;  // (0, 1e7]
-  int potential_rays = 1000;    // per tree alone over all directions together, shared out alike, 1 .. 1e7
+  // More rays than that, up to 100 times, until the standard error of 95 in 100 trees' intercepted light over
+  // all intervals is below this, relative: 0.025 keeps 95 in 100 trees within about 5 %. 0: exactly
+  // rays_per_cell.
+  double tree_relative_error = 0;
+  int potential_rays = 1000;  // per tree alone over all directions together, shared out alike, 1 .. 1e7
   int sensor_sun_rays = 4, sensor_sky_rays = 16;  // per sensor and direction, 1 .. 100,000
   std::uint64_t seed = 1;
 };

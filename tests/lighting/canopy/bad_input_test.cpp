@@ -4,7 +4,7 @@
 #include <functional>
 #include <limits>
 
-#include "lighting/canopy/world_light.h"
+#include "lighting/canopy/large_stand.h"
 #include "sim/base/error.h"
 #include "tests/lighting/canopy/stand_scenes.h"
 
@@ -93,11 +93,11 @@ TEST(BadScene, IsRefused) {
                    o.map_hi_m = Vec2(0);
                  }));
   expect_refused("forest", "no trees", [] { const StandScene scene(Forest{}, {}); });
-  expect_refused("forest", "no trees", [] { world_canopy(Forest{}, 1.0, {}); });
-  expect_refused("world.voxel_m", "out of range", [&] {
-    WorldLightOptions options;
+  expect_refused("forest", "no trees", [] { box_canopy(Forest{}, 1.0, {}); });
+  expect_refused("large_stand.voxel_m", "out of range", [&] {
+    LargeStandOptions options;
     options.voxel_m = 0;
-    prepare_world_light(forest, options, {});
+    prepare_large_stand(forest, options, {});
   });
 }
 
@@ -114,6 +114,7 @@ TEST(BadRequest, IsRefused) {
     };
   };
   expect_refused("rays_per_cell", "out of range", with([](auto& r) { r.rays_per_cell = 0; }));
+  expect_refused("tree_relative_error", "out of range", with([](auto& r) { r.tree_relative_error = -1; }));
   expect_refused("potential_rays", "out of range", with([](auto& r) { r.potential_rays = 0; }));
   expect_refused("sensor_rays", "out of range", with([](auto& r) { r.sensor_sky_rays = 0; }));
   expect_refused("canopy.last_zenith_deg", "out of range", with([](auto& r) {

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
+#include "lighting/canopy/large_stand.h"
 #include "lighting/canopy/leaf_projection.h"
-#include "lighting/canopy/world_light.h"
 #include "tests/lighting/canopy/stand_scenes.h"
 #include "tests/lighting/trace/golden_cases.h"
 
@@ -83,13 +83,13 @@ TEST(BeerProfile, FallsExponentially) {
 // Boxes of a tenth of a metre: the crown's own drawing is fitted, what is left is the boxes' randomness.
 TEST(BeerLayer, SweptThroughBoxes) {
   Forest forest = slab(2.0, 3);
-  WorldLightOptions options;
+  LargeStandOptions options;
   options.voxel_m = 0.25;
   options.boxes_per_cell = 1;
-  const WorldPrepared prepared = prepare_world_light(forest, options, {});
+  const LargeStandPrepared prepared = prepare_large_stand(forest, options, {});
   const auto c = light_case("beer_spherical_LAI2");
   const StandSky sky = stand_sky(dark_source(), sky_source(SkyModel::kUniform, 8));
-  const WorldLight light = world_light(forest, prepared, sky, {});
+  const LargeStandLight light = large_stand_light(forest, prepared, sky, {});
   // Between nodes of zenith, and where the crown alone has sides that its layer has not: 1.5 %.
   EXPECT_NEAR(light.trees[0] / light.incident[0], c["expected"]["intercept_diffuse_UOC"].get<double>(),
               0.015);

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "lighting/canopy/exp_lanes.h"
-#include "lighting/canopy/world_light.h"
+#include "lighting/canopy/large_stand.h"
 #include "sim/base/parallel.h"
 #include "tests/lighting/canopy/stand_scenes.h"
 
@@ -108,6 +108,19 @@ TEST(StandLight, IsLinearInTheWeights) {
   EXPECT_EQ(hours.sensors.direct.at(0, 0), 0.0f);  // an hour without sun
 }
 
+// Four patches of a quarter hemisphere each: radiance 1 brings pi to a level plane where to_source.z is 1/2.
+TEST(LightSources, FromPatchesAndBins) {
+  std::vector<Vec3> to;
+  for (int k = 0; k < 4; ++k) to.push_back(direction_from_azimuth_zenith(0.5 * kPi * k, kPi / 3.0));
+  const std::vector<double> solid_angle(4, 0.5 * kPi), radiance(4, 1.0);
+  const LightSource sky = sky_patches(to, solid_angle, weight_rows(radiance, 1, 4, "w"));
+  EXPECT_NEAR(open_energy(sky, {0, 0, 1})[0], kPi, 1e-12);
+  EXPECT_NEAR(2.0 * kPi * (1.0 - std::cos(sky.half_angle(2))), 0.5 * kPi, 1e-12);
+  const LightSource sun = sun_bins(to, {}, weight_rows(radiance, 2, 2, "w"));
+  EXPECT_EQ(sun.half_angle(0), 0.0);
+  EXPECT_NEAR(open_energy(sun, to[0])[0], 1.0 + glm::dot(to[0], to[1]), 1e-12);
+}
+
 // Alone in the open nothing competes, and a tree takes what it could.
 TEST(StandLight, ATreeAloneHasNoCompetition) {
   Forest forest = small_stand(false);
@@ -118,6 +131,19 @@ TEST(StandLight, ATreeAloneHasNoCompetition) {
   EXPECT_NEAR(light.trees.light_competition.at(0, 0), 1.0, 0.04);
   EXPECT_NEAR(light.trees.intercepted.at(0, 0), light.plot.leaves[0] + light.plot.wood[0],
               1e-5 * light.plot.sent[0]);
+}
+
+TEST(StandLight, TakesAsManyRaysAsTheErrorAskedForNeeds) {
+  const Forest forest = small_stand(true);
+  StandLightRequest r = request(50);
+  const StandLight coarse = light_of(forest, r);
+  r.tree_relative_error = 0.01;
+  const StandLight fine = light_of(forest, r);
+  for (std::size_t t = 0; t < 3; ++t) {
+    EXPECT_GT(coarse.trees.intercepted.error_at(0, t), 0.02f * coarse.trees.intercepted.at(0, t));
+    // The pilot's own estimate is rough.
+    EXPECT_LT(fine.trees.intercepted.error_at(0, t), 0.013f * fine.trees.intercepted.at(0, t));
+  }
 }
 
 TEST(StandLight, AgreesWithTheReference) {
@@ -185,15 +211,16 @@ TEST(Photograph, EastIsOnTheLeft) {
   EXPECT_EQ(at(0, 0), 0.0f);    // outside the circle
 }
 
-TEST(WorldLight, ClosesEnergyAndAgreesWithRays) {
+TEST(LargeStandLight, ClosesEnergyAndAgreesWithRays) {
   Forest forest = small_stand(true);
-  WorldLightOptions options;
+  LargeStandOptions options;
   options.voxel_m = 0.2;
   options.boxes_per_cell = 2;
   options.crown_rays = 20'000;
-  const WorldPrepared prepared = prepare_world_light(forest, options, {});
-  const StandLightRequest r = request(20'000);
-  const WorldLight world = world_light(forest, prepared, r.sky, {});
+  const LargeStandPrepared prepared = prepare_large_stand(forest, options, {});
+  StandLightRequest r = request(20'000);  // many directions: one alone hits boxes by chance
+  r.sky = stand_sky(dark_source(), sky_source(SkyModel::kUniform, 6));
+  const LargeStandLight world = large_stand_light(forest, prepared, r.sky, {});
   EXPECT_NEAR(world.trees[0] + world.ground[0], world.incident[0], 1e-5 * world.incident[0]);
   const StandLight rays = light_of(forest, r);
   // Boxes of a fifth of a metre in crowns of a metre with leaves of 12 cm, which of them hide behind a
@@ -210,36 +237,41 @@ TEST(WorldLight, ClosesEnergyAndAgreesWithRays) {
   EXPECT_NEAR(boxes, traced, 0.05 * traced);
 }
 
-// In the open, trees take what they would take alone where they do not shade each other.
-TEST(WorldLight, TreesFarApartInTheOpen) {
+// In the open, trees take what they would take alone where they do not shade each other. Crowns four boxes
+// wide take a few percent more or less as they lie in the boxes.
+TEST(LargeStandLight, TreesFarApartInTheOpen) {
   Forest forest = small_stand(false);
+  forest.prototypes[0].foliage = random_leaves(Crown::kSphere, {0, 0, 1.2}, Vec3(0.5), 4000, 0.033, 6);
   for (std::size_t i = 0; i < 3; ++i) forest.instances[i].position_m = {10.0 * static_cast<double>(i), 0, 0};
-  WorldLightOptions options;
-  options.voxel_m = 0.25;
-  const WorldPrepared prepared = prepare_world_light(forest, options, {});
-  const WorldLight light =
-      world_light(forest, prepared, stand_sky(sun_source(kSun, 300.0), dark_source()), {});
-  for (std::size_t t = 0; t < 3; ++t) EXPECT_NEAR(light.light_competition.at(0, t), 1.0, 0.05) << t;
+  LargeStandOptions options;
+  options.voxel_m = 0.1;
+  const LargeStandPrepared prepared = prepare_large_stand(forest, options, {});
+  const StandSky sky = stand_sky(dark_source(), sky_source(SkyModel::kUniform, 6));
+  const LargeStandLight light = large_stand_light(forest, prepared, sky, {});
+  for (std::size_t t = 0; t < 3; ++t) EXPECT_NEAR(light.light_competition.at(0, t), 1.0, 0.06) << t;
   // The lowest sun: shadows of kilometres, no memory of kilometres.
   const Vec3 low = direction_from_azimuth_zenith(1.0, 0.5 * kPi - 1e-4);
-  const WorldLight evening = world_light(forest, prepared, stand_sky(sun_source(low), dark_source()), {});
+  const LargeStandLight evening =
+      large_stand_light(forest, prepared, stand_sky(sun_source(low), dark_source()), {});
   for (std::size_t t = 0; t < 3; ++t) {
     EXPECT_TRUE(std::isfinite(evening.tree_intercepted.at(0, t)));
     EXPECT_GE(evening.tree_intercepted.at(0, t), 0.0f);
   }
 }
 
-TEST(WorldLight, SameBytesForAnyNumberAtOnce) {
+TEST(LargeStandLight, SameBytesForAnyNumberAtOnce) {
   const Forest forest = small_stand(true);
-  WorldLightOptions options;
+  LargeStandOptions options;
   options.voxel_m = 0.2;
-  WorldLight one, four;
+  LargeStandLight one, four;
   options.directions_at_once = 1;
-  with_threads(
-      1, [&] { one = world_light(forest, prepare_world_light(forest, options, {}), request(1).sky, {}); });
+  with_threads(1, [&] {
+    one = large_stand_light(forest, prepare_large_stand(forest, options, {}), request(1).sky, {});
+  });
   options.directions_at_once = 4;
-  with_threads(
-      2, [&] { four = world_light(forest, prepare_world_light(forest, options, {}), request(1).sky, {}); });
+  with_threads(2, [&] {
+    four = large_stand_light(forest, prepare_large_stand(forest, options, {}), request(1).sky, {});
+  });
   EXPECT_EQ(one.ground_total.value, four.ground_total.value);
   EXPECT_EQ(one.tree_intercepted.value, four.tree_intercepted.value);
 }

@@ -28,7 +28,7 @@ struct CanopyEntry {
   float area_m2 = 0;
 };
 
-struct WorldCanopy {
+struct BoxCanopy {
   Vec2 lo_m{0};
   double voxel_m = 1, height_m = 1;  // edge of a box; height of one (the same but for rounding)
   Vec2 edge_m{1};                    // edges of a box in x and y: the period is a whole number of boxes
@@ -47,6 +47,6 @@ struct WorldCanopy {
 
 // `voxel_m` > 0. Throws Error(kInvalidInput) for a forest without trees, Error(kLimitExceeded) for more than
 // 400 million boxes.
-WorldCanopy world_canopy(const Forest& forest, double voxel_m, const RunControl& control);
+BoxCanopy box_canopy(const Forest& forest, double voxel_m, const RunControl& control);
 
 }  // namespace sunfleck

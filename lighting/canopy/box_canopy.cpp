@@ -1,5 +1,5 @@
-// See world_canopy.h.
-#include "lighting/canopy/world_canopy.h"
+// See box_canopy.h.
+#include "lighting/canopy/box_canopy.h"
 
 #include <algorithm>
 #include <cmath>
@@ -81,7 +81,7 @@ class CanopyBuilder {
     });
   }
 
-  WorldCanopy build() {
+  BoxCanopy build() {
     lay_out();
     std::vector<std::vector<CanopyEntry>> of_tree(forest_.instances.size());
     for_each_chunk(of_tree.size(), 64, control_, "boxes", [&](std::size_t begin, std::size_t end) {
@@ -114,7 +114,7 @@ class CanopyBuilder {
     const Vec2 cells = glm::max(forest_.period ? glm::round(size / v) : glm::ceil(size / v), Vec2(1.0));
     const double nz = std::floor(top_m / v) + 1.0;
     if (cells.x * cells.y * nz > 4e8)
-      throw Error(ErrorKind::kLimitExceeded, "world.voxel_m", "gives more than 400 million boxes",
+      throw Error(ErrorKind::kLimitExceeded, "large_stand.voxel_m", "gives more than 400 million boxes",
                   std::to_string(v * std::cbrt(cells.x * cells.y * nz / 4e8)) + " m or more");
     canopy_.lo_m = lo;
     canopy_.nx = static_cast<std::uint32_t>(cells.x);
@@ -156,7 +156,7 @@ class CanopyBuilder {
   const Forest& forest_;
   const RunControl& control_;
   std::vector<std::vector<AreaLump>> lumps_;
-  WorldCanopy canopy_;
+  BoxCanopy canopy_;
 };
 
 }  // namespace
@@ -173,9 +173,10 @@ std::vector<AreaLump> area_lumps(const Prototype& prototype, double size_m) {
   return lumps.result();
 }
 
-WorldCanopy world_canopy(const Forest& forest, double voxel_m, const RunControl& control) {
+BoxCanopy box_canopy(const Forest& forest, double voxel_m, const RunControl& control) {
   if (!(voxel_m > 0.0 && std::isfinite(voxel_m)))
-    throw_invalid("world.voxel_m", "a box cannot be " + std::to_string(voxel_m) + " m", "a length above 0");
+    throw_invalid("large_stand.voxel_m", "a box cannot be " + std::to_string(voxel_m) + " m",
+                  "a length above 0");
   return CanopyBuilder(forest, voxel_m, control).build();
 }
 

@@ -1,10 +1,10 @@
-// See world_light.h.
-#include "lighting/canopy/world_light.h"
+// See large_stand_light.h.
+#include "lighting/canopy/large_stand.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "lighting/canopy/world_sweep.h"
+#include "lighting/canopy/box_sweep.h"
 #include "sim/base/error.h"
 #include "sim/base/parallel.h"
 #include "sim/base/random.h"
@@ -14,10 +14,11 @@ namespace sunfleck {
 namespace {
 
 void require(bool fine, const char* field, double value, const char* range) {
-  if (!fine) throw_invalid(std::string("world.") + field, std::to_string(value) + " is out of range", range);
+  if (!fine)
+    throw_invalid(std::string("large_stand.") + field, std::to_string(value) + " is out of range", range);
 }
 
-void check(const WorldLightOptions& o) {
+void check(const LargeStandOptions& o) {
   require(o.voxel_m >= 0.1 && o.voxel_m <= 20.0, "voxel_m", o.voxel_m, "0.1 to 20 m");
   require(o.boxes_per_cell >= 1 && o.boxes_per_cell <= 100, "boxes_per_cell", o.boxes_per_cell, "1 to 100");
   require(o.crown_rays >= 16 && o.crown_rays <= 1'000'000, "crown_rays", o.crown_rays, "16 to 1,000,000");
@@ -26,7 +27,7 @@ void check(const WorldLightOptions& o) {
 }
 
 // Cells of boxes_per_cell boxes; the last ones of a row may be narrower and are then counted as they are.
-StandGround map_of(const WorldCanopy& canopy, int boxes_per_cell) {
+StandGround map_of(const BoxCanopy& canopy, int boxes_per_cell) {
   StandGround map;
   const auto wide = static_cast<std::uint32_t>(boxes_per_cell);
   map.lo_m = canopy.lo_m;
@@ -78,10 +79,10 @@ std::vector<std::vector<IntervalWeight>> by_direction(const LightSource& source)
   return out;
 }
 
-class WorldEvaluation {
+class LargeStandEvaluation {
  public:
-  WorldEvaluation(const Forest& forest, const WorldPrepared& prepared, const StandSky& sky,
-                  const RunControl& control)
+  LargeStandEvaluation(const Forest& forest, const LargeStandPrepared& prepared, const StandSky& sky,
+                       const RunControl& control)
       : forest_(forest),
         prepared_(prepared),
         sky_(sky),
@@ -96,7 +97,7 @@ class WorldEvaluation {
       energies->assign(sky.intervals.size(), 0.0);
   }
 
-  WorldLight run() {
+  LargeStandLight run() {
     const auto sun = add_source(sky_.sun, 0), diffuse = add_source(sky_.sky, 1);
     out_.ground_total = sum_of(sun, diffuse);
     const Vec3 n = prepared_.canopy.ground_normal;
@@ -143,8 +144,8 @@ class WorldEvaluation {
     return ground.table();
   }
 
-  Response respond(WorldSweep& sweep, const Vec3& to_source, std::uint64_t seed) const {
-    const WorldCanopy& canopy = prepared_.canopy;
+  Response respond(BoxSweep& sweep, const Vec3& to_source, std::uint64_t seed) const {
+    const BoxCanopy& canopy = prepared_.canopy;
     const double zenith = std::acos(std::clamp(glm::dot(to_source, canopy.ground_normal), -1.0, 1.0));
     std::vector<float> shown_of(prepared_.crowns.size());
     std::vector<double> alone_of(prepared_.crowns.size());
@@ -196,30 +197,30 @@ class WorldEvaluation {
   }
 
   const Forest& forest_;
-  const WorldPrepared& prepared_;
+  const LargeStandPrepared& prepared_;
   const StandSky& sky_;
   const RunControl& control_;
-  std::vector<WorldSweep> sweeps_;
+  std::vector<BoxSweep> sweeps_;
   Sums trees_, potential_;
-  WorldLight out_;
+  LargeStandLight out_;
 };
 
 }  // namespace
 
-WorldPrepared prepare_world_light(const Forest& forest, const WorldLightOptions& options,
-                                  const RunControl& control) {
+LargeStandPrepared prepare_large_stand(const Forest& forest, const LargeStandOptions& options,
+                                       const RunControl& control) {
   check(options);
-  WorldPrepared prepared;
+  LargeStandPrepared prepared;
   prepared.options = options;
-  prepared.canopy = world_canopy(forest, options.voxel_m, control);
+  prepared.canopy = box_canopy(forest, options.voxel_m, control);
   prepared.crowns = crown_optics(forest, {options.voxel_m, options.crown_rays, options.seed}, control);
   prepared.map = map_of(prepared.canopy, options.boxes_per_cell);
   return prepared;
 }
 
-WorldLight world_light(const Forest& forest, const WorldPrepared& prepared, const StandSky& sky,
-                       const RunControl& control) {
-  return WorldEvaluation(forest, prepared, checked(sky), control).run();
+LargeStandLight large_stand_light(const Forest& forest, const LargeStandPrepared& prepared,
+                                  const StandSky& sky, const RunControl& control) {
+  return LargeStandEvaluation(forest, prepared, checked(sky), control).run();
 }
 
 }  // namespace sunfleck

@@ -1,8 +1,8 @@
 // Stand light for large stands (tens of thousands of trees): unscattered light on the ground and on every
 // tree over any intervals, by sweeps through boxes of leaf area, one per direction.
 //
-// prepare_world_light() depends on the forest only; world_light() on the directions and weights. Light that
-// leaves, wood and ground throw back is not followed: multiply intercepted light by what leaves absorb
+// prepare_large_stand() depends on the forest only; large_stand_light() on the directions and weights. Light
+// that leaves, wood and ground throw back is not followed: multiply intercepted light by what leaves absorb
 // (1 - albedo) for a first estimate of absorbed PAR, a few percent low. A forest that does not repeat stands
 // in the open; its map is its bounds.
 #pragma once
@@ -10,33 +10,33 @@
 #include <string>
 #include <vector>
 
+#include "lighting/canopy/box_canopy.h"
 #include "lighting/canopy/crown_optics.h"
 #include "lighting/canopy/light_weights.h"
 #include "lighting/canopy/response_table.h"
 #include "lighting/canopy/stand_scene.h"
-#include "lighting/canopy/world_canopy.h"
 
 namespace sunfleck {
 
-struct WorldLightOptions {
+struct LargeStandOptions {
   double voxel_m = 1;          // edge of a box, 0.1 to 20 m
   int boxes_per_cell = 2;      // ground cells are this many boxes wide, 1 .. 100: 2 m cells by default
-  int crown_rays = 2000;       // per prototype, zenith and azimuth, 16 .. 1e6
+  int crown_rays = 1000;       // per prototype, zenith and azimuth, 16 .. 1e6
   int directions_at_once = 4;  // each takes 4 bytes per box; 1 .. 64; changes no result
   std::uint64_t seed = 1;
 };
 
-struct WorldPrepared {
-  WorldLightOptions options;
-  WorldCanopy canopy;
+struct LargeStandPrepared {
+  LargeStandOptions options;
+  BoxCanopy canopy;
   std::vector<CrownOptics> crowns;  // per prototype
   StandGround map;
 };
-WorldPrepared prepare_world_light(const Forest& forest, const WorldLightOptions& options,
-                                  const RunControl& control);
+LargeStandPrepared prepare_large_stand(const Forest& forest, const LargeStandOptions& options,
+                                       const RunControl& control);
 
 // Tables without standard errors (0): sweeps have no noise but that of the crowns' rays.
-struct WorldLight {
+struct LargeStandLight {
   std::vector<std::string> intervals;
   StandGround map;
   IntervalTable ground_direct_share, ground_diffuse_share;  // [interval][ground cell], of open light
@@ -47,7 +47,7 @@ struct WorldLight {
   // also take light that aims beyond the map.
   std::vector<double> incident, trees, ground;
 };
-WorldLight world_light(const Forest& forest, const WorldPrepared& prepared, const StandSky& sky,
-                       const RunControl& control);
+LargeStandLight large_stand_light(const Forest& forest, const LargeStandPrepared& prepared,
+                                  const StandSky& sky, const RunControl& control);
 
 }  // namespace sunfleck

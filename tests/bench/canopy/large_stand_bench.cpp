@@ -1,5 +1,5 @@
-// A large stand: canopy_world [hectares] [trees] [prototypes] [leaves per prototype] [voxel m]. Time, memory,
-// and on up to 4 hectares the rays' answer beside it.
+// A large stand: canopy_large_stand [hectares] [trees] [prototypes] [leaves per prototype] [voxel m]. Time,
+// memory, and on up to 4 hectares the rays' answer beside it.
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -9,8 +9,8 @@
 #include <ctime>
 #include <string>
 
+#include "lighting/canopy/large_stand.h"
 #include "lighting/canopy/stand_light.h"
-#include "lighting/canopy/world_light.h"
 #include "sim/base/parallel.h"
 #include "sim/base/random.h"
 #include "sim/forest/forest_spec.h"
@@ -115,15 +115,15 @@ void run(double hectares, int trees, int prototypes, int leaves, double voxel_m)
       season_sky((given.empty() ? root : given) / "stands/cloture20/monthly_radiation.csv", season);
   std::printf("  %zu sun bins, %zu sky patches\n", sky.sun.size(), sky.sky.size());
   lap.print("season");
-  WorldLightOptions options;
+  LargeStandOptions options;
   options.voxel_m = voxel_m;
   options.boxes_per_cell = std::max(1, static_cast<int>(std::lround(2.0 / voxel_m)));
   options.directions_at_once = 2;
-  const WorldPrepared prepared = prepare_world_light(forest, options, {});
+  const LargeStandPrepared prepared = prepare_large_stand(forest, options, {});
   std::printf("  boxes %zu (%.0f MB), entries %zu\n", prepared.canopy.voxel_count(),
               4e-6 * static_cast<double>(prepared.canopy.voxel_count()), prepared.canopy.entries.size());
   lap.print("prepare");
-  const WorldLight light = world_light(forest, prepared, sky, {});
+  const LargeStandLight light = large_stand_light(forest, prepared, sky, {});
   lap.print("sweeps");
   std::printf("  incident %.6g = trees %.6g + ground %.6g (residual %.2g)\n", light.incident[0],
               light.trees[0], light.ground[0],
