@@ -5,6 +5,7 @@
 
 #include "lighting/base/summaries.h"
 #include "lighting/plan/auto_method.h"
+#include "lighting/plan/run_method.h"
 #include "sim/base/contract.h"
 #include "sim/base/error.h"
 #include "sim/base/parallel.h"
@@ -48,47 +49,6 @@ std::vector<SkipNote> drop_idle_sources(Illumination& light) {
   if (none(&BandLight::diffuse_horizontal_w_m2))
     skipped.push_back({"sky light", "its irradiance is 0 in every band", 0.0});
   return skipped;
-}
-
-SppOptions spp_options(const LightRequest& request, SppVariant variant) {
-  SppOptions options = request.spp;
-  options.variant = variant;
-  return options;
-}
-
-EnvelopeOptions envelope_options(const LightRequest& request, EnvelopeSun sun) {
-  EnvelopeOptions options = request.envelope;
-  options.sun = sun;
-  return options;
-}
-
-LightMap run_method(const Forest& forest, const OpticsTable& optics, const Illumination& light,
-                    const LightRequest& request, const RunControl& control) {
-  switch (request.method) {
-    case Method::kReference:
-      return reference_light_map(forest, optics, light, request.reference, control);
-    case Method::kSingleScattering:
-      return spp_light_map(forest, optics, light, spp_options(request, SppVariant::kSingleScattering),
-                           control);
-    case Method::kSpp:
-      return spp_light_map(forest, optics, light, spp_options(request, SppVariant::kSpp), control);
-    case Method::kSppG:
-      return spp_light_map(forest, optics, light, spp_options(request, SppVariant::kSppG), control);
-    case Method::kEnvelope:
-      return envelope_light_map(forest, optics, light, envelope_options(request, EnvelopeSun::kPublished),
-                                control);
-    case Method::kEnvelopeMarched:
-      return envelope_light_map(forest, optics, light, envelope_options(request, EnvelopeSun::kMarched),
-                                control);
-    case Method::kGrid:
-      return grid_light_map(forest, optics, light, request.grid, control);
-    case Method::kAuto:
-      return auto_light_map(
-          forest, optics, light, request,
-          [&](const LightRequest& asked) { return run_method(forest, optics, light, asked, control); },
-          control);
-  }
-  throw ContractViolation("unknown method");
 }
 
 // One note per skipped thing: an estimator may have said in its own words what was taken away before it.

@@ -1,0 +1,52 @@
+#include "lighting/plan/run_method.h"
+
+#include "lighting/plan/auto_method.h"
+#include "sim/base/contract.h"
+
+namespace sunfleck {
+namespace {
+
+SppOptions spp_options(const LightRequest& request, SppVariant variant) {
+  SppOptions options = request.spp;
+  options.variant = variant;
+  return options;
+}
+
+EnvelopeOptions envelope_options(const LightRequest& request, EnvelopeSun sun) {
+  EnvelopeOptions options = request.envelope;
+  options.sun = sun;
+  return options;
+}
+
+}  // namespace
+
+LightMap run_method(const Forest& forest, const OpticsTable& optics, const Illumination& light,
+                    const LightRequest& request, const RunControl& control) {
+  switch (request.method) {
+    case Method::kReference:
+      return reference_light_map(forest, optics, light, request.reference, control);
+    case Method::kSingleScattering:
+      return spp_light_map(forest, optics, light, spp_options(request, SppVariant::kSingleScattering),
+                           control);
+    case Method::kSpp:
+      return spp_light_map(forest, optics, light, spp_options(request, SppVariant::kSpp), control);
+    case Method::kSppG:
+      return spp_light_map(forest, optics, light, spp_options(request, SppVariant::kSppG), control);
+    case Method::kEnvelope:
+      return envelope_light_map(forest, optics, light, envelope_options(request, EnvelopeSun::kPublished),
+                                control);
+    case Method::kEnvelopeMarched:
+      return envelope_light_map(forest, optics, light, envelope_options(request, EnvelopeSun::kMarched),
+                                control);
+    case Method::kGrid:
+      return grid_light_map(forest, optics, light, request.grid, control);
+    case Method::kAuto:
+      return auto_light_map(
+          forest, optics, light, request,
+          [&](const LightRequest& asked) { return run_method(forest, optics, light, asked, control); },
+          control);
+  }
+  throw ContractViolation("unknown method");
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,13 @@
+// Which estimator answers for which method, with which of the request's options: the only place that knows
+// them all.
+#pragma once
+
+#include "lighting/plan/light_request.h"
+
+namespace sunfleck {
+
+// Runs the method that the request names. `light` as returned by checked(), idle sources dropped.
+LightMap run_method(const Forest& forest, const OpticsTable& optics, const Illumination& light,
+                    const LightRequest& request, const RunControl& control);
+
+}  // namespace sunfleck
