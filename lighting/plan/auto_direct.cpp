@@ -2,7 +2,6 @@
 
 #include "lighting/trace/probe_sun.h"
 #include "lighting/trace/surface_sampler.h"
-#include "lighting/trace/visiting_order.h"
 #include "sim/base/contract.h"
 #include "sim/base/parallel.h"
 #include "sim/base/random.h"
@@ -13,7 +12,7 @@ void trace_direct(const ProbeScene& scene, const Illumination& light, int rays, 
                   LightMap& map, const RunControl& control) {
   using namespace trace;
   SUNFLECK_EXPECTS(rays > 0 && map.sunlit_fraction.size() == scene.receivers().foliage_count());
-  const std::vector<std::uint32_t> order = visiting_order(scene.receivers());  // foliage first
+  const std::vector<std::uint32_t>& order = scene.order();  // foliage first
   for_each_chunk(map.sunlit_fraction.size(), 64, control, "tracing sun", [&](std::size_t b, std::size_t e) {
     for (std::size_t i = b; i < e; ++i) {
       const std::uint32_t element = order[i];

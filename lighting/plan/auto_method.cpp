@@ -50,7 +50,7 @@ void add_error_bar(const ErrorSample& sample, const Resamples& resamples, BandLi
 
 class Ladder {
  public:
-  Ladder(const Forest& forest, const OpticsTable& optics, const Illumination& light,
+  Ladder(const LightScene& scene, const OpticsTable& optics, const Illumination& light,
          const LightRequest& request, const MethodRunner& run, const RunControl& control)
       : optics_(optics),
         light_(light),
@@ -58,8 +58,9 @@ class Ladder {
         plan_(request.probes.value_or(ProbePlan{})),
         run_(run),
         control_(control),
-        forest_(forest),
-        index_(forest) {}
+        light_scene_(scene),
+        forest_(scene.forest),
+        index_(scene.index) {}
 
   LightMap climb() {
     prepare();
@@ -74,8 +75,8 @@ class Ladder {
   void prepare() {
     {
       const StageTimer timer(times_, "building ray scene");
-      control_.report("building ray scene", 0.0);
-      scene_ = std::make_unique<ProbeScene>(forest_, request_.reference.ground, control_);
+      scene_ = std::make_unique<ProbeScene>(trace::KeptRays(forest_, light_scene_.store, control_),
+                                            request_.reference.ground);
     }
     const StageTimer timer(times_, "probing");
     probes_ = draw_probes(*scene_, optics_, light_, plan_, control_);
@@ -195,8 +196,9 @@ class Ladder {
   const ProbePlan plan_;
   const MethodRunner& run_;
   const RunControl& control_;
+  const LightScene& light_scene_;
   const Forest& forest_;
-  const ForestIndex index_;
+  const ForestIndex& index_;
   std::unique_ptr<ProbeScene> scene_;
   ProbeSet probes_;
   Provenance times_;  // of all attempts
@@ -207,18 +209,18 @@ class Ladder {
 
 }  // namespace
 
-LightMap auto_light_map(const Forest& forest, const OpticsTable& optics, const Illumination& light,
+LightMap auto_light_map(const LightScene& scene, const OpticsTable& optics, const Illumination& light,
                         const LightRequest& request, const MethodRunner& run, const RunControl& control) {
   check_options(request.automatic);
   check_options(request.probes.value_or(ProbePlan{}));
-  return Ladder(forest, optics, light, request, run, control).climb();
+  return Ladder(scene, optics, light, request, run, control).climb();
 }
 
-void add_error_bars(const Forest& forest, const OpticsTable& optics, const Illumination& light,
+void add_error_bars(const LightScene& scene, const OpticsTable& optics, const Illumination& light,
                     const ProbePlan& plan, bool ground, LightMap& map, const RunControl& control) {
   const StageTimer timer(map.provenance, "probing");
-  const ProbeScene scene(forest, ground, control);
-  const ProbeSet probes = draw_probes(scene, optics, light, plan, control);
+  const ProbeScene rays(trace::KeptRays(scene.forest, scene.store, control), ground);
+  const ProbeSet probes = draw_probes(rays, optics, light, plan, control);
   const Resamples resamples(probes.probes.size(), plan.seed);
   add_probe_settings(plan, map.provenance);
   for (std::size_t b = 0; b < map.bands.size(); ++b)

@@ -5,6 +5,7 @@
 
 #include "lighting/plan/auto_options.h"
 #include "lighting/plan/light_request.h"
+#include "lighting/plan/light_scene.h"
 
 namespace sunfleck {
 
@@ -17,14 +18,14 @@ using MethodRunner = std::function<LightMap(const LightRequest&)>;
 // answer; if none is, the one with the smallest, and a note says so. What was tried, what was measured
 // (with 95 % intervals) and any correction stands in the provenance's settings.
 // `light` as returned by checked().
-LightMap auto_light_map(const Forest& forest, const OpticsTable& optics, const Illumination& light,
+LightMap auto_light_map(const LightScene& scene, const OpticsTable& optics, const Illumination& light,
                         const LightRequest& request, const MethodRunner& run, const RunControl& control);
 
 // Measures the error of a finished map by probes and adds it to its provenance's settings:
 //   measured_bias.<band>, measured_element_rms.<band>   "value [low, high]", relative, 95 % intervals
 //   probes, probe_paths_per_face, probe_sun_rays, probe_seed
 // A band without a standard error of its mean gets one that holds bias and uncertainty together.
-void add_error_bars(const Forest& forest, const OpticsTable& optics, const Illumination& light,
+void add_error_bars(const LightScene& scene, const OpticsTable& optics, const Illumination& light,
                     const ProbePlan& plan, bool ground, LightMap& map, const RunControl& control);
 
 }  // namespace sunfleck

@@ -1,15 +1,10 @@
 #include "lighting/plan/light_request.h"
 
-#include <algorithm>
 #include <utility>
 
-#include "lighting/base/summaries.h"
-#include "lighting/plan/auto_method.h"
-#include "lighting/plan/run_method.h"
+#include "lighting/plan/light_session.h"
 #include "sim/base/contract.h"
 #include "sim/base/error.h"
-#include "sim/base/parallel.h"
-#include "sim/base/version.h"
 
 namespace sunfleck {
 namespace {
@@ -25,52 +20,6 @@ const std::vector<std::pair<Method, std::string>>& methods() {
       {Method::kGrid, "grid"},
       {Method::kAuto, "auto"}};
   return table;
-}
-
-void require_leaves(const Forest& forest, const ForestIndex& index) {
-  if (forest.instances.empty()) throw_invalid("forest", "has no trees", "at least one instance");
-  if (index.element_count() == 0)
-    throw_invalid("forest", "has no foliage, so there is nothing to light", "trees with leaves");
-}
-
-// Takes away the light that cannot matter, so that no estimator works for it. Returns what was skipped.
-std::vector<SkipNote> drop_idle_sources(Illumination& light) {
-  const auto none = [&](double BandLight::*strength) {
-    return std::all_of(light.bands.begin(), light.bands.end(),
-                       [&](const BandLight& b) { return b.*strength == 0.0; });
-  };
-  std::vector<SkipNote> skipped;
-  if (none(&BandLight::beam_normal_w_m2)) {
-    skipped.push_back({"direct sun", "its irradiance is 0 in every band", 0.0});
-  } else if (!light.sun_is_up()) {
-    skipped.push_back({"direct sun", "the sun is at or below the horizon", 0.0});
-    for (BandLight& b : light.bands) b.beam_normal_w_m2 = 0.0;
-  }
-  if (none(&BandLight::diffuse_horizontal_w_m2))
-    skipped.push_back({"sky light", "its irradiance is 0 in every band", 0.0});
-  return skipped;
-}
-
-// One note per skipped thing: an estimator may have said in its own words what was taken away before it.
-void merge_skipped(std::vector<SkipNote>& notes, const std::vector<SkipNote>& first) {
-  std::vector<SkipNote> merged = first;
-  for (const SkipNote& note : notes)
-    if (std::none_of(merged.begin(), merged.end(), [&](const SkipNote& m) { return m.what == note.what; }))
-      merged.push_back(note);
-  notes = std::move(merged);
-}
-
-void sign(LightMap& map, const Forest& forest, const LightRequest& request,
-          const std::vector<SkipNote>& skipped) {
-  Provenance& p = map.provenance;
-  p.method = to_string(request.method);
-  p.version = kVersion;
-  p.forest_hash = content_hash(forest);
-  if (request.method == Method::kReference || request.method == Method::kAuto)
-    p.seed = request.reference.seed;
-  merge_skipped(p.skipped, skipped);
-  const auto light = describe_light(forest, request);
-  p.settings.insert(p.settings.begin(), light.begin(), light.end());
 }
 
 }  // namespace
@@ -101,23 +50,8 @@ const std::vector<std::string>& method_names() {
 
 LightMap compute_light_map(const Forest& forest, const LightRequest& request, const CostOptions& cost,
                            const RunControl& control) {
-  validate(forest);
-  const ForestIndex index(forest);
-  require_leaves(forest, index);
-  const OpticsTable optics(forest, request.optics);
-  Illumination light = checked(request.light, optics.band_count());
-  if (request.probes) check_options(*request.probes);
-  const std::vector<SkipNote> skipped = drop_idle_sources(light);
-  LightMap map;
-  with_threads(cost.threads, [&] {
-    map = run_method(forest, optics, light, request, control);
-    if (request.probes && request.method != Method::kAuto)
-      add_error_bars(forest, optics, light, *request.probes, request.reference.ground, map, control);
-    sign(map, forest, request, skipped);
-  });
-  if (const std::string violation = find_violation(map, index); !violation.empty())
-    throw ContractViolation("the result of " + map.provenance.method + " holds " + violation);
-  return map;
+  constexpr std::uint64_t kForOneCall = 512ull << 20;  // what its own stages share
+  return LightSession(forest, std::make_shared<PreparedCache>(kForOneCall)).compute(request, cost, control);
 }
 
 }  // namespace sunfleck

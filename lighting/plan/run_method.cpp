@@ -20,11 +20,12 @@ EnvelopeOptions envelope_options(const LightRequest& request, EnvelopeSun sun) {
 
 }  // namespace
 
-LightMap run_method(const Forest& forest, const OpticsTable& optics, const Illumination& light,
+LightMap run_method(const LightScene& scene, const OpticsTable& optics, const Illumination& light,
                     const LightRequest& request, const RunControl& control) {
+  const Forest& forest = scene.forest;
   switch (request.method) {
     case Method::kReference:
-      return reference_light_map(forest, optics, light, request.reference, control);
+      return reference_light_map(forest, optics, light, request.reference, control, scene.store);
     case Method::kSingleScattering:
       return spp_light_map(forest, optics, light, spp_options(request, SppVariant::kSingleScattering),
                            control);
@@ -42,8 +43,8 @@ LightMap run_method(const Forest& forest, const OpticsTable& optics, const Illum
       return grid_light_map(forest, optics, light, request.grid, control);
     case Method::kAuto:
       return auto_light_map(
-          forest, optics, light, request,
-          [&](const LightRequest& asked) { return run_method(forest, optics, light, asked, control); },
+          scene, optics, light, request,
+          [&](const LightRequest& asked) { return run_method(scene, optics, light, asked, control); },
           control);
   }
   throw ContractViolation("unknown method");

@@ -3,11 +3,12 @@
 #pragma once
 
 #include "lighting/plan/light_request.h"
+#include "lighting/plan/light_scene.h"
 
 namespace sunfleck {
 
 // Runs the method that the request names. `light` as returned by checked(), idle sources dropped.
-LightMap run_method(const Forest& forest, const OpticsTable& optics, const Illumination& light,
+LightMap run_method(const LightScene& scene, const OpticsTable& optics, const Illumination& light,
                     const LightRequest& request, const RunControl& control);
 
 }  // namespace sunfleck

@@ -104,7 +104,11 @@ class Prober {
 }  // namespace
 
 ProbeScene::ProbeScene(const Forest& forest, bool ground, const RunControl& control)
-    : receivers_(forest, no_cells_), rays_(forest, RayScene::Options{.ground = ground}, control) {}
+    : surfaces_(std::make_shared<const Surfaces>(forest, GroundCells{})),
+      rays_(std::make_shared<const RayScene>(forest, RayScene::Options{.ground = ground}, control)) {}
+
+ProbeScene::ProbeScene(const KeptRays& kept, bool ground)
+    : surfaces_(kept.surfaces(false, 0.0)), rays_(kept.scene(ground)) {}
 
 std::vector<ProbeLight> probe_light(const ProbeScene& scene, const OpticsTable& optics,
                                     const Illumination& light, std::span<const std::size_t> elements,

@@ -15,7 +15,7 @@
 
 #include "lighting/optics/optics.h"
 #include "lighting/sky/illumination.h"
-#include "lighting/trace/receivers.h"
+#include "lighting/trace/kept_rays.h"
 #include "sim/base/run_control.h"
 
 namespace sunfleck {
@@ -30,16 +30,16 @@ struct ProbeOptions {
 class ProbeScene {
  public:
   ProbeScene(const Forest& forest, bool ground, const RunControl& control);
-  ProbeScene(const ProbeScene&) = delete;
-  ProbeScene& operator=(const ProbeScene&) = delete;
+  // With the ray scene that is kept already, and kept from now on.
+  ProbeScene(const trace::KeptRays& kept, bool ground);
 
-  const RayScene& rays() const { return rays_; }
-  const trace::Receivers& receivers() const { return receivers_; }
+  const RayScene& rays() const { return *rays_; }
+  const trace::Receivers& receivers() const { return surfaces_->receivers; }
+  const std::vector<std::uint32_t>& order() const { return surfaces_->order; }  // visiting_order()
 
  private:
-  const trace::GroundCells no_cells_;
-  const trace::Receivers receivers_;
-  const RayScene rays_;
+  std::shared_ptr<const trace::Surfaces> surfaces_;  // without ground cells
+  std::shared_ptr<const RayScene> rays_;
 };
 
 struct ProbeFace {

@@ -7,11 +7,11 @@
 #include "lighting/trace/band_result.h"
 #include "lighting/trace/hit_matrix.h"
 #include "lighting/trace/jackknife.h"
+#include "lighting/trace/kept_rays.h"
 #include "lighting/trace/open_plane.h"
 #include "lighting/trace/ray_scene.h"
 #include "lighting/trace/receivers.h"
 #include "lighting/trace/sun_light.h"
-#include "lighting/trace/visiting_order.h"
 #include "sim/base/error.h"
 #include "sim/base/version.h"
 
@@ -61,14 +61,16 @@ bool any_beam(const Illumination& light) {
 class Reference {
  public:
   Reference(const Forest& forest, const OpticsTable& optics, Illumination light,
-            const ReferenceOptions& options, const RunControl& control)
+            const ReferenceOptions& options, const RunControl& control, const PreparedStore& store)
       : forest_(forest),
         optics_(optics),
         light_(std::move(light)),
         options_(options),
         control_(control),
-        ground_(options.ground ? ground_cells_for(forest, options.ground_cell_m) : GroundCells{}),
-        receivers_(forest, ground_),
+        kept_(forest, store, control),
+        knobs_{options.ground, options.ground_cell_m, options.seed},
+        surfaces_(kept_.surfaces(options.ground, options.ground_cell_m)),
+        receivers_(surfaces_->receivers),
         rays_(options.rays_per_face),
         sun_rays_(any_beam(light_) ? options.sun_rays_per_element : 0) {
     check_memory(receivers_.face_count(), rays_, options.memory_limit_bytes);
@@ -77,10 +79,7 @@ class Reference {
   LightMap run() {
     {
       const StageTimer timer(map_.provenance, "building ray scene");
-      control_.report("building ray scene", 0.0);
-      scene_ = std::make_unique<RayScene>(forest_, RayScene::Options{.ground = options_.ground}, control_);
-      order_ = visiting_order(receivers_);
-      control_.report("building ray scene", 1.0);
+      scene_ = kept_.scene(options_.ground);
     }
     control_.check();
     do {
@@ -95,13 +94,13 @@ class Reference {
  private:
   void trace_rays() {
     const StageTimer timer(map_.provenance, "tracing rays");
-    extend(matrix_, rays_, *scene_, receivers_, order_, light_.sky, options_.seed, control_);
+    matrix_ = kept_.matrix(knobs_, light_.sky, rays_, matrix_.get());
   }
 
   void trace_sun() {
     if (sun_rays_ == 0) return;
     const StageTimer timer(map_.provenance, "tracing sun");
-    extend(sun_, sun_rays_, *scene_, receivers_, order_, light_, options_.seed, control_);
+    sun_ = kept_.sun(knobs_, light_, sun_rays_, sun_.get());
   }
 
   void solve_bands() {
@@ -127,7 +126,7 @@ class Reference {
                               options_.ground && !forest_.period ? optics_.soil_albedo(b) * above : 0.0};
     const Convergence convergence{options_.convergence, options_.max_iterations};
     SolvedBand solved{
-        {receivers_, matrix_, sun_, receivers_.optics(optics_, b), sources, fewest_rays()}, {}, {}};
+        {receivers_, *matrix_, *sun_, receivers_.optics(optics_, b), sources, fewest_rays()}, {}, {}};
     solved.radiosity = solve(solved.problem, convergence, control_);
     solved.without_groups = solve_without_groups(solved.problem, solved.radiosity, convergence, control_);
     if (!solved.radiosity.converged) unconverged_.push_back(optics_.bands()[b]);
@@ -174,8 +173,8 @@ class Reference {
 
   void finish() {
     map_.sunlit_fraction.assign(receivers_.foliage_count(), 0.0f);
-    for (std::size_t e = 0; e < map_.sunlit_fraction.size() && sun_.rays > 0; ++e)
-      map_.sunlit_fraction[e] = static_cast<float>(sun_.visible[e]) / static_cast<float>(sun_.rays);
+    for (std::size_t e = 0; e < map_.sunlit_fraction.size() && sun_->rays > 0; ++e)
+      map_.sunlit_fraction[e] = static_cast<float>(sun_->visible[e]) / static_cast<float>(sun_->rays);
     summarize(forest_, receivers_.index(), optics_, map_);
     Provenance& p = map_.provenance;
     p.method = "reference";
@@ -193,7 +192,7 @@ class Reference {
                   {"convergence", std::to_string(options_.convergence)},
                   {"iterations", std::to_string(*std::max_element(iterations_.begin(), iterations_.end()))},
                   {"ground", options_.ground ? "on" : "off"}};
-    if (options_.ground) p.settings.emplace_back("ground_cell_m", std::to_string(ground_.cell_m.x));
+    if (options_.ground) p.settings.emplace_back("ground_cell_m", std::to_string(surfaces_->ground.cell_m.x));
   }
 
   void add_notes(Provenance& p) const {
@@ -216,13 +215,14 @@ class Reference {
   const Illumination light_;
   const ReferenceOptions& options_;
   const RunControl& control_;
-  const GroundCells ground_;
-  const Receivers receivers_;
+  const KeptRays kept_;
+  const KeptRays::Knobs knobs_;
+  const std::shared_ptr<const Surfaces> surfaces_;
+  const Receivers& receivers_;
   int rays_, sun_rays_;
-  std::unique_ptr<RayScene> scene_;
-  std::vector<std::uint32_t> order_;
-  HitMatrix matrix_;
-  SunLight sun_;
+  std::shared_ptr<const RayScene> scene_;  // used while rays are traced; built first, as a stage of its own
+  std::shared_ptr<const HitMatrix> matrix_;
+  std::shared_ptr<const SunLight> sun_ = std::make_shared<const SunLight>();
   LightMap map_;
   std::vector<ErrorShares> shares_;
   std::vector<int> iterations_;
@@ -232,13 +232,21 @@ class Reference {
 }  // namespace
 
 LightMap reference_light_map(const Forest& forest, const OpticsTable& optics, const Illumination& light,
-                             const ReferenceOptions& options, const RunControl& control) {
+                             const ReferenceOptions& options, const RunControl& control,
+                             const PreparedStore& store) {
   check_options(options);
   validate(forest);
   if (ForestIndex(forest).element_count() == 0)
     throw_invalid("forest", "has no foliage", "at least one tree with leaves or shoots");
   control.check();
-  return Reference(forest, optics, checked(light, optics.band_count()), options, control).run();
+  return Reference(forest, optics, checked(light, optics.band_count()), options, control, store).run();
+}
+
+LightMap reference_light_map(const Forest& forest, const OpticsTable& optics, const Illumination& light,
+                             const ReferenceOptions& options, const RunControl& control) {
+  constexpr std::uint64_t kForOneCall = 512ull << 20;  // holds the ray scene from one stage to the next
+  PreparedCache cache(kForOneCall);
+  return reference_light_map(forest, optics, light, options, control, PreparedStore{cache, {}});
 }
 
 }  // namespace sunfleck

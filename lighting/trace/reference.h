@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "lighting/base/light_map.h"
+#include "lighting/base/prepared_cache.h"
 #include "lighting/optics/optics.h"
 #include "lighting/sky/illumination.h"
 #include "sim/base/run_control.h"
@@ -30,5 +31,9 @@ struct ReferenceOptions {
 
 LightMap reference_light_map(const Forest& forest, const OpticsTable& optics, const Illumination& light,
                              const ReferenceOptions& options, const RunControl& control);
+// The same with what can be used again kept in `store`, see kept_rays.h. Equal bytes.
+LightMap reference_light_map(const Forest& forest, const OpticsTable& optics, const Illumination& light,
+                             const ReferenceOptions& options, const RunControl& control,
+                             const PreparedStore& store);
 
 }  // namespace sunfleck
