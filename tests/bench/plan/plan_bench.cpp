@@ -1,0 +1,93 @@
+// Two tables, on one core: `auto` against `reference` at the same measured error, and what a change of the
+// request costs in a session against a call by itself. Answers are checked before they are timed: sessions
+// must give the bytes of calls by themselves.
+//
+//   plan_bench auto [hectare]        plan_bench changes
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <string>
+
+#include "lighting/plan/light_session.h"
+#include "tests/bench/plan/plan_scenes.h"
+
+namespace sunfleck {
+namespace {
+
+double cpu_now_s() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+struct Run {
+  LightMap map;
+  double cpu_s = 0;
+};
+
+// Median of three.
+template <class Call>
+Run timed(int repeats, const Call& call) {
+  std::vector<double> times;
+  Run run;
+  for (int i = 0; i < repeats; ++i) {
+    const double start = cpu_now_s();
+    run.map = call();
+    times.push_back(cpu_now_s() - start);
+  }
+  std::sort(times.begin(), times.end());
+  run.cpu_s = times[times.size() / 2];
+  return run;
+}
+
+std::string setting(const LightMap& map, const std::string& key) {
+  for (const auto& [name, value] : map.provenance.settings)
+    if (name == key) return value;
+  return "-";
+}
+
+void print_stages(const LightMap& map) {
+  for (const StageTime& t : map.provenance.times)
+    std::printf("      %-24s %7.4f s\n", t.stage.c_str(), t.cpu_s);
+}
+
+void auto_against_reference(const Forest& forest, int repeats) {
+  std::printf("%s, %zu elements, PAR, one core\n", forest.name.c_str(), ForestIndex(forest).element_count());
+  for (const double tolerance : {0.10, 0.20}) {
+    LightRequest asked = par_request(Method::kAuto);
+    asked.automatic.tolerance = tolerance;
+    const Run run = timed(repeats, [&] { return compute_light_map(forest, asked, {.threads = 1}, {}); });
+    std::printf("  auto %.2f: %.3f s, measured %s, chose %s; tried %s; %s\n", tolerance, run.cpu_s,
+                setting(run.map, "measured_element_rms.PAR").c_str(),
+                setting(run.map, "chosen_method").c_str(), setting(run.map, "tried_methods").c_str(),
+                setting(run.map, "correction.PAR").c_str());
+    print_stages(run.map);
+  }
+  for (const int rays : {8, 16, 32, 64}) {
+    LightRequest asked = par_request(Method::kReference);
+    asked.reference.rays_per_face = asked.reference.sun_rays_per_element = rays;
+    asked.probes = ProbePlan{};
+    const LightMap measured = compute_light_map(forest, asked, {.threads = 1}, {});
+    asked.probes.reset();
+    const Run run = timed(repeats, [&] { return compute_light_map(forest, asked, {.threads = 1}, {}); });
+    std::printf("  reference %d rays: %.3f s, measured %s\n", rays, run.cpu_s,
+                setting(measured, "measured_element_rms.PAR").c_str());
+    if (rays == 64) print_stages(run.map);
+  }
+}
+
+}  // namespace
+}  // namespace sunfleck
+
+int main(int count, char** words) {
+  using namespace sunfleck;
+  const std::string what = count > 1 ? words[1] : "auto";
+  const bool stand = count > 2 && std::string(words[2]) == "hectare";
+  if (what == "auto") auto_against_reference(stand ? hectare() : clumped_crown(), stand ? 1 : 3);
+  return 0;
+}
