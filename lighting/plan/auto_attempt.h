@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lighting/plan/auto_correction.h"
+#include "lighting/plan/auto_groups.h"
 #include "lighting/plan/auto_options.h"
 #include "lighting/plan/auto_probe.h"
 
@@ -12,7 +13,8 @@ namespace sunfleck {
 
 struct JudgedBand {
   std::optional<Correction> correction;
-  ErrorSample sample;  // of the light with the correction; each probe by a fit without it
+  ErrorSample sample;                // of the light with the correction; each probe by a fit without it
+  std::optional<ErrorSample> group;  // of the measure's groups, where it has any
 };
 
 struct Attempt {
@@ -28,14 +30,12 @@ struct Judge {
   const ForestIndex& index;
   const OpticsTable& optics;
   const ProbeSet& probes;
+  const GroupProbes* groups;  // null for measures without groups
   const AutoOptions& options;
 
-  // Finds the best correction of each band among `forms`, applies it and measures.
+  // Finds the best correction of each band among `forms` (which all keep direct light, or none does), applies
+  // it and measures.
   Attempt judge(std::string name, LightMap map, const std::vector<CorrectionForm>& forms) const;
-
-  // Relative RMS error of each band's diffuse light (corrected if that pays), in shares of the total mean:
-  // what would be left with exact direct light.
-  std::vector<double> error_of_diffuse(const LightMap& map) const;
 };
 
 }  // namespace sunfleck

@@ -22,6 +22,7 @@ std::size_t term_count(CorrectionForm form) {
     case CorrectionForm::kDiffuse:
       return 2;
     case CorrectionForm::kDiffuseParts:
+    case CorrectionForm::kDiffuseBySun:
       return 3;
     case CorrectionForm::kParts:
       break;
@@ -37,6 +38,8 @@ Terms terms_of(CorrectionForm form, const LightParts& e, const LightParts& truth
       return {{1.0, e.diffuse()}, truth.diffuse()};
     case CorrectionForm::kDiffuseParts:
       return {{1.0, e.sky_w_m2, e.scattered_w_m2}, truth.diffuse()};
+    case CorrectionForm::kDiffuseBySun:
+      return {{1.0, e.diffuse(), e.sunlit}, truth.diffuse()};
     case CorrectionForm::kParts:
       break;
   }
@@ -51,13 +54,15 @@ Correction correction_of(CorrectionForm form, const std::array<double, kMostTerm
       return {c[0], 1.0, c[1], c[1]};
     case CorrectionForm::kDiffuseParts:
       return {c[0], 1.0, c[1], c[2]};
+    case CorrectionForm::kDiffuseBySun:
+      return {c[0], 1.0, c[1], c[1], c[2]};
     case CorrectionForm::kParts:
       break;
   }
   return {c[0], c[1], c[2], c[3]};
 }
 
-// Normal equations A c = b of up to four terms.
+// Normal equations A c = b.
 struct NormalEquations {
   std::array<std::array<double, kMostTerms>, kMostTerms> a{};
   std::array<double, kMostTerms> b{};
@@ -106,15 +111,17 @@ std::optional<Correction> fit_if(CorrectionForm form, std::span<const LightParts
   const Correction c = correction_of(form, equations.solve(terms));
   for (const double factor : {c.direct, c.sky, c.scattered})
     if (!(factor >= 0.0 && std::isfinite(factor))) return {};
-  if (!std::isfinite(c.offset_w_m2)) return {};
+  if (!std::isfinite(c.offset_w_m2) || !std::isfinite(c.sunlit_w_m2)) return {};
   return c;
 }
 
 }  // namespace
 
 LightParts corrected(const LightParts& light, const Correction& c) {
-  LightParts after{c.direct * light.direct_w_m2, c.sky * light.sky_w_m2, c.scattered * light.scattered_w_m2};
-  const double before = after.diffuse(), diffuse = std::max(0.0, before + c.offset_w_m2);
+  LightParts after{c.direct * light.direct_w_m2, c.sky * light.sky_w_m2, c.scattered * light.scattered_w_m2,
+                   light.sunlit};
+  const double more = c.offset_w_m2 + c.sunlit_w_m2 * light.sunlit;
+  const double before = after.diffuse(), diffuse = std::max(0.0, before + more);
   if (before > 0.0) {
     after.sky_w_m2 *= diffuse / before;
     after.scattered_w_m2 *= diffuse / before;
@@ -124,8 +131,8 @@ LightParts corrected(const LightParts& light, const Correction& c) {
   return after;
 }
 
-ElementLight corrected(const ElementLight& light, const Correction& c) {
-  const LightParts before = parts_of(light), after = corrected(before, c);
+ElementLight corrected(const ElementLight& light, double sunlit_fraction, const Correction& c) {
+  const LightParts before = parts_of(light, sunlit_fraction), after = corrected(before, c);
   const auto scale = [](double to, double from) { return from > 0.0 ? to / from : 0.0; };
   const double sky = scale(after.sky_w_m2, before.sky_w_m2),
                scattered = scale(after.scattered_w_m2, before.scattered_w_m2);

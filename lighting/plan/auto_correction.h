@@ -13,6 +13,9 @@ namespace sunfleck {
 struct Correction {
   double offset_w_m2 = 0;  // of both faces together
   double direct = 1, sky = 1, scattered = 1;
+  // What an element wholly in the sun gets more of diffuse light: its side of the sky is open and its
+  // neighbours are lit.
+  double sunlit_w_m2 = 0;
 };
 
 enum class CorrectionForm {
@@ -20,11 +23,13 @@ enum class CorrectionForm {
   kParts,         // a factor for each part
   kDiffuse,       // the direct light is right: one factor for all diffuse light
   kDiffuseParts,  // the same with a factor each for sky and scattered light
+  kDiffuseBySun,  // one factor for all diffuse light and the sunlit term: needs sunlit fractions that are
+                  // right for each element
 };
 
 LightParts corrected(const LightParts& light, const Correction& correction);
 // Scales both faces alike; what has no diffuse light to scale gets the offset as scattered light.
-ElementLight corrected(const ElementLight& light, const Correction& correction);
+ElementLight corrected(const ElementLight& light, double sunlit_fraction, const Correction& correction);
 
 // Least squares, each probe with its weight. Nothing where a factor would be negative or the probes do not
 // tell.

@@ -1,33 +1,50 @@
 #include "lighting/plan/auto_direct.h"
 
-#include "lighting/trace/probe_sun.h"
-#include "lighting/trace/surface_sampler.h"
 #include "sim/base/contract.h"
 #include "sim/base/parallel.h"
-#include "sim/base/random.h"
 
 namespace sunfleck {
 
-void trace_direct(const ProbeScene& scene, const Illumination& light, int rays, std::uint64_t seed,
-                  LightMap& map, const RunControl& control) {
-  using namespace trace;
-  SUNFLECK_EXPECTS(rays > 0 && map.sunlit_fraction.size() == scene.receivers().foliage_count());
-  const std::vector<std::uint32_t>& order = scene.order();  // foliage first
-  for_each_chunk(map.sunlit_fraction.size(), 64, control, "tracing sun", [&](std::size_t b, std::size_t e) {
-    for (std::size_t i = b; i < e; ++i) {
-      const std::uint32_t element = order[i];
-      if (static_cast<int>(i - b) * rays % 512 < rays) control.check();
-      RandomStream random(seed, element, RandomPurpose::kSunRays);
-      const SunOnSurface sun = sun_on_surface(scene.rays(), SurfaceSampler(scene.receivers(), element), light,
-                                              rays, SunPoints::kSpread, random);
-      map.sunlit_fraction[element] = static_cast<float>(sun.seen);
-      for (std::size_t band = 0; band < map.bands.size(); ++band) {
-        const double beam = light.bands[band].beam_normal_w_m2;
-        map.bands[band].elements[element].front.direct_w_m2 = static_cast<float>(beam * sun.front);
-        map.bands[band].elements[element].back.direct_w_m2 = static_cast<float>(beam * sun.back);
+std::shared_ptr<const SunExposure> sun_exposure(const LightScene& scene, const Illumination& light,
+                                                const SunRasterOptions& options, const RunControl& control) {
+  return scene.store.get<SunExposure>(
+      PreparedKey("sun exposure")
+          .add("to_sun", light.to_sun)
+          .add("half_angle", light.sun_half_angle_rad)
+          .add("target_error", options.target_error)
+          .add("pixel_m", options.pixel_m)
+          .add("sun_directions", options.sun_directions)
+          .add("ground", options.ground ? 1 : 0)
+          .add("seed", options.seed),
+      control,
+      [&] {
+        return std::make_shared<const SunExposure>(
+            raster_sun(scene.forest, scene.index, light.to_sun, light.sun_half_angle_rad, options, control));
+      },
+      [](const SunExposure& e) {
+        return (e.sunlit_fraction.size() + e.standard_error.size()) * sizeof(float) + sizeof(SunExposure);
+      });
+}
+
+void set_direct(const LightScene& scene, const Illumination& light, const SunExposure& exposure,
+                LightMap& map, const RunControl& control) {
+  SUNFLECK_EXPECTS(exposure.sunlit_fraction.size() == map.sunlit_fraction.size());
+  map.sunlit_fraction = exposure.sunlit_fraction;
+  for_each_chunk(scene.forest.instances.size(), 1, control, {}, [&](std::size_t i, std::size_t) {
+    for (std::size_t e = scene.index.first_element(i); e < scene.index.first_element(i + 1); ++e) {
+      if (e % 65536 == 0) control.check();
+      const BeamOnFaces beam = beam_on_faces(scene.forest, i, e - scene.index.first_element(i), light.to_sun);
+      for (std::size_t b = 0; b < map.bands.size(); ++b) {
+        const double lit = light.bands[b].beam_normal_w_m2 * exposure.sunlit_fraction[e];
+        map.bands[b].elements[e].front.direct_w_m2 = static_cast<float>(lit * beam.front);
+        map.bands[b].elements[e].back.direct_w_m2 = static_cast<float>(lit * beam.back);
       }
     }
   });
+  for (BandLightMap& band : map.bands) {
+    band.has_budget = false;
+    band.budget = {};
+  }
 }
 
 }  // namespace sunfleck

@@ -1,17 +1,22 @@
-// Direct sun by shadow rays in place of a smooth method's: a leaf is in the sun or not, which no mean over a
-// cell can tell.
+// Direct sun as the sun sees it (lighting/trace/sun_raster.h) in place of a smooth method's: a leaf is in the
+// sun or not, which no mean over a cell can tell.
 #pragma once
 
-#include <cstdint>
+#include <memory>
 
 #include "lighting/base/light_map.h"
-#include "lighting/trace/probe_light.h"
+#include "lighting/plan/light_scene.h"
+#include "lighting/sky/illumination.h"
+#include "lighting/trace/sun_raster.h"
 
 namespace sunfleck {
 
-// `rays` to every foliage element, from points spread evenly over it. Replaces the direct light and the
-// sunlit fraction; everything else stays, sums are not updated. Progress stage "tracing sun".
-void trace_direct(const ProbeScene& scene, const Illumination& light, int rays, std::uint64_t seed,
-                  LightMap& map, const RunControl& control);
+// Kept in the scene's store by sun and options.
+std::shared_ptr<const SunExposure> sun_exposure(const LightScene& scene, const Illumination& light,
+                                                const SunRasterOptions& options, const RunControl& control);
+
+// Replaces direct light and sunlit fractions; everything else stays, sums are not updated, budgets go.
+void set_direct(const LightScene& scene, const Illumination& light, const SunExposure& exposure,
+                LightMap& map, const RunControl& control);
 
 }  // namespace sunfleck

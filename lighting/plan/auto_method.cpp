@@ -1,128 +1,119 @@
 #include "lighting/plan/auto_method.h"
 
 #include <algorithm>
-#include <array>
+#include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <memory>
 
 #include "lighting/base/summaries.h"
 #include "lighting/plan/auto_attempt.h"
+#include "lighting/plan/auto_cost.h"
 #include "lighting/plan/auto_direct.h"
+#include "lighting/plan/auto_report.h"
 #include "lighting/trace/probe_path.h"
 #include "sim/base/error.h"
 
 namespace sunfleck {
 namespace {
 
-// Smooth methods, cheapest first.
-constexpr std::array kLadder = {Method::kGrid};
+using Clock = std::chrono::steady_clock;
 
-std::string short_number(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", x);
-  return text;
-}
-
-std::string to_text(const Interval& i) {
-  return short_number(i.value) + " [" + short_number(i.low) + ", " + short_number(i.high) + "]";
-}
-
-std::string to_text(const Correction& c) {
-  return short_number(c.offset_w_m2) + " W m-2 + " + short_number(c.direct) + " direct + " +
-         short_number(c.sky) + " sky + " + short_number(c.scattered) + " scattered";
-}
-
-void add_probe_settings(const ProbePlan& plan, Provenance& p) {
-  p.settings.emplace_back("probes", std::to_string(plan.count));
-  p.settings.emplace_back("probe_paths_per_face", std::to_string(plan.paths_per_face));
-  p.settings.emplace_back("probe_sun_rays", std::to_string(plan.sun_rays));
-  p.settings.emplace_back("probe_seed", std::to_string(plan.seed));
-}
-
-void add_error_bar(const ErrorSample& sample, const Resamples& resamples, BandLightMap& band, Provenance& p) {
-  const ErrorBar bar = error_bar(sample, resamples);
-  p.settings.emplace_back("measured_bias." + band.band, to_text(bar.bias));
-  p.settings.emplace_back("measured_element_rms." + band.band, to_text(bar.element_rms));
-  if (band.mean_irradiance_standard_error_w_m2 == 0.0)
-    band.mean_irradiance_standard_error_w_m2 = bar.mean_standard_error_w_m2;
-}
+// Share of the tolerance that drawing the sun may use up: finer costs more than the rest can win back.
+constexpr double kSunShare = 0.4;
+// For sums, where errors of single elements average out.
+constexpr double kSunErrorOfSums = 0.2;
 
 class Ladder {
  public:
   Ladder(const LightScene& scene, const OpticsTable& optics, const Illumination& light,
          const LightRequest& request, const MethodRunner& run, const RunControl& control)
-      : optics_(optics),
+      : scene_(scene),
+        optics_(optics),
         light_(light),
         request_(request),
+        options_(request.automatic),
         plan_(request.probes.value_or(ProbePlan{})),
         run_(run),
         control_(control),
-        light_scene_(scene),
-        forest_(scene.forest),
-        index_(scene.index) {}
+        sizes_(scene_sizes(scene.forest)) {}
 
   LightMap climb() {
-    prepare();
-    for (const Method method : kLadder) {
-      if (try_smooth(method)) return finish();
-    }
+    if (options_.time_s) return best_in_time();
+    probe();
+    for (const GridOptions& grid : grid_rungs(sizes_, request_.grid, 0.1 * std::min(0.2, options_.aim())))
+      if (try_grid(grid)) return finish();
     try_reference();
     return finish();
   }
 
  private:
-  void prepare() {
+  void probe() {
     {
       const StageTimer timer(times_, "building ray scene");
-      scene_ = std::make_unique<ProbeScene>(trace::KeptRays(forest_, light_scene_.store, control_),
-                                            request_.reference.ground);
+      rays_ = std::make_unique<ProbeScene>(trace::KeptRays(scene_.forest, scene_.store, control_),
+                                           request_.reference.ground);
     }
     const StageTimer timer(times_, "probing");
-    probes_ = draw_probes(*scene_, optics_, light_, plan_, control_);
+    probes_ = draw_probes(*rays_, optics_, light_, plan_, control_);
+    if (is_of_groups(options_.measure))
+      groups_ = draw_group_probes(*rays_, optics_, light_, plan_, options_, control_);
   }
 
-  // As it is, then with traced sun where the probes say that this is enough.
-  bool try_smooth(Method method) {
-    LightRequest asked = request_;
-    asked.method = method;
-    LightMap map = run_timed(asked);
-    const int rays = request_.automatic.measure == AutoMeasure::kElementRms ? sun_rays_for(map) : 0;
-    if (take(judge().judge(to_string(method), rays > 0 ? map : std::move(map),
+  // As it is, then with the sun drawn over it.
+  bool try_grid(const GridOptions& grid) {
+    LightMap map = run_grid(grid);
+    const bool sun = trace::has_beam(light_);
+    if (take(judge().judge(name_of(grid), sun ? map : std::move(map),
                            {CorrectionForm::kTotal, CorrectionForm::kParts})))
       return true;
-    if (rays == 0) return false;
-    {
-      const StageTimer timer(times_, "tracing sun");
-      trace_direct(*scene_, light_, rays, request_.reference.seed, map, control_);
-    }
-    for (BandLightMap& band : map.bands) band.has_budget = false, band.budget = {};
-    return take(judge().judge(to_string(method) + " with " + std::to_string(rays) + " sun rays",
-                              std::move(map), {CorrectionForm::kDiffuse, CorrectionForm::kDiffuseParts}));
+    return sun && take_with_sun(grid, std::move(map), sun_error_for_tolerance());
   }
 
-  // Shadow rays to each element with which direct light is as exact as the tolerance leaves room for; 0: no
-  // number will do. The variance by n spread points is taken as 2 / n^1.5 of that of a single ray.
-  int sun_rays_for(const LightMap& map) const {
-    if (!trace::has_beam(light_)) return 0;
-    constexpr double kMost = 256, kFewest = 4, kSafety = 0.95;
-    const std::vector<double> diffuse = judge().error_of_diffuse(map);
-    double rays = kFewest;
-    for (std::size_t b = 0; b < diffuse.size(); ++b) {
-      const double room = std::pow(kSafety * request_.automatic.tolerance, 2) - diffuse[b] * diffuse[b];
-      if (!(room > 0.0)) return 0;
-      rays = std::max(rays, std::pow(2.0 * one_ray_variance(map.bands[b], b) / room, 2.0 / 3.0));
-    }
-    return rays <= kMost ? static_cast<int>(std::ceil(rays)) : 0;
+  bool take_with_sun(const GridOptions& grid, LightMap map, double sun_error) {
+    draw_sun(sun_error, map);
+    return take(judge().judge(
+        name_of(grid) + " with drawn sun", std::move(map),
+        {CorrectionForm::kDiffuse, CorrectionForm::kDiffuseParts, CorrectionForm::kDiffuseBySun}));
   }
 
-  // Of an element's light by a single shadow ray, relative to the mean.
-  double one_ray_variance(const BandLightMap& map, std::size_t band) const {
-    double sum = 0.0;
-    for (const ProbeLight& p : probes_.probes)
-      sum += p.bands[band].direct_variance_w2_m4 * plan_.sun_rays / plan_.count;
-    const double mean = mean_total_w_m2(map);
-    return mean > 0.0 ? sum / (mean * mean) : 0.0;
+  LightMap run_grid(const GridOptions& grid) {
+    LightRequest asked = request_;
+    asked.method = Method::kGrid;
+    asked.grid = grid;
+    return run_timed(asked);
+  }
+
+  static std::string name_of(const GridOptions& grid) {
+    return "grid of " + std::to_string(grid.directions) + " directions" +
+           (grid.cell_m > 0.0 ? " at " + short_number(grid.cell_m) + " m" : "");
+  }
+
+  // One point of the sun's disc: what that leaves out of penumbras the probes see, and a finer rung or the
+  // reference mends.
+  void draw_sun(double target_error, LightMap& map) {
+    const StageTimer timer(times_, "drawing sun");
+    const auto exposure = sun_exposure(scene_, light_,
+                                       {.target_error = target_error,
+                                        .sun_directions = 1,
+                                        .ground = request_.reference.ground,
+                                        .seed = request_.reference.seed},
+                                       control_);
+    set_direct(scene_, light_, *exposure, map, control_);
+  }
+
+  // Relative to the mean direct light, in the band where the sun is the largest part.
+  double sun_error_for_tolerance() const {
+    if (options_.measure != AutoMeasure::kElementRms) return kSunErrorOfSums;
+    double share = 0.0;
+    for (std::size_t b = 0; b < light_.bands.size(); ++b) {
+      double direct = 0.0, total = 0.0;
+      for (const ProbeLight& p : probes_.probes) {
+        direct += parts_of(p.bands[b]).direct_w_m2;
+        total += p.bands[b].irradiance_w_m2();
+      }
+      if (total > 0.0) share = std::max(share, direct / total);
+    }
+    return std::clamp(share > 0.0 ? kSunShare * options_.aim() / share : 1.0, 0.01, 0.5);
   }
 
   void try_reference() {
@@ -131,8 +122,7 @@ class Ladder {
     asked.method = Method::kReference;
     ReferenceOptions& o = asked.reference;
     o.rays_per_face = o.sun_rays_per_element = kFirstRays;
-    if (request_.automatic.measure == AutoMeasure::kElementRms)
-      o.target_relative_error = 0.9 * request_.automatic.tolerance;
+    if (options_.measure == AutoMeasure::kElementRms) o.target_relative_error = 0.9 * options_.aim();
     try {
       take(judge().judge("reference", run_timed(asked), {}));
     } catch (const Error& error) {
@@ -140,6 +130,84 @@ class Ladder {
       notes_.push_back(std::string("reference was not run: ") + error.what());
     }
   }
+
+  // --- by time ---------------------------------------------------------------------------------------
+
+  // Seconds from now on, of the threads at hand. What was measured of the probes corrects the model.
+  double predicted_s(double nominal_s) const { return nominal_s * slowness_ / std::max(1, scene_.threads); }
+
+  double needed_before_s() const {
+    return ray_scene_s(sizes_) + probes_s(plan_, optics_.band_count(), is_of_groups(options_.measure));
+  }
+
+  LightMap best_in_time() {
+    const auto start = Clock::now();
+    slowness_ = machine_slowness();
+    refuse_impossible_time();
+    const auto spent_s = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+    probe();
+    slowness_ = std::max(slowness_, spent_s() * std::max(1, scene_.threads) / needed_before_s() * 0.5);
+    run_best_that_fits(*options_.time_s - spent_s());
+    if (spent_s() > 1.2 * *options_.time_s)
+      notes_.push_back("took longer than time_s of " + short_number(*options_.time_s) +
+                       " s: the machine was slower than predicted");
+    return finish();
+  }
+
+  GridOptions cheapest_grid() const {
+    return {.directions = 8, .cell_m = 4.0 * sizes_.leaf_side_m, .convergence = 0.02};
+  }
+
+  // Well below what the cheapest way is expected to take, so that no guess of the model refuses what might
+  // do.
+  void refuse_impossible_time() const {
+    const double needed_s =
+        predicted_s(needed_before_s() + grid_s(sizes_, cheapest_grid(), optics_.band_count()));
+    if (*options_.time_s < 0.5 * needed_s)
+      throw_invalid("auto.time_s", short_number(*options_.time_s) + " s is too short for this forest",
+                    "about " + short_number(needed_s) + " s or more, which the cheapest way needs here");
+  }
+
+  void run_best_that_fits(double left_s) {
+    constexpr double kSafety = 0.85;
+    const std::size_t bands = optics_.band_count();
+    const bool sun = trace::has_beam(light_);
+    left_s *= kSafety;
+    for (const int rays : {1024, 512, 256, 128}) {
+      if (predicted_s(reference_s(sizes_, rays, bands, sun)) > left_s) continue;
+      if (run_reference_of(rays)) return;
+    }
+    std::vector<GridOptions> grids = grid_rungs(sizes_, request_.grid, 0.01);
+    for (std::size_t g = grids.size(); g-- > 0;)
+      for (const double sun_error : {0.05, 0.1}) {
+        if (!sun) break;
+        if (predicted_s(grid_s(sizes_, grids[g], bands) + sun_drawing_s(sizes_, sun_error)) > left_s)
+          continue;
+        take_with_sun(grids[g], run_grid(grids[g]), sun_error);
+        return;
+      }
+    grids.insert(grids.begin(), cheapest_grid());
+    std::size_t g = grids.size() - 1;
+    while (g > 0 && predicted_s(grid_s(sizes_, grids[g], bands)) > left_s) --g;
+    take(judge().judge(name_of(grids[g]), run_grid(grids[g]),
+                       {CorrectionForm::kTotal, CorrectionForm::kParts}));
+  }
+
+  bool run_reference_of(int rays) {
+    LightRequest asked = request_;
+    asked.method = Method::kReference;
+    asked.reference.rays_per_face = asked.reference.sun_rays_per_element = rays;
+    asked.reference.target_relative_error = 0.0;
+    try {
+      take(judge().judge("reference of " + std::to_string(rays) + " rays", run_timed(asked), {}));
+      return true;
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::kLimitExceeded) throw;
+      return false;
+    }
+  }
+
+  // --- common ----------------------------------------------------------------------------------------
 
   LightMap run_timed(const LightRequest& asked) {
     LightMap map = run_(asked);
@@ -149,7 +217,9 @@ class Ladder {
     return map;
   }
 
-  Judge judge() const { return {forest_, index_, optics_, probes_, request_.automatic}; }
+  Judge judge() const {
+    return {scene_.forest, scene_.index, optics_, probes_, groups_ ? &*groups_ : nullptr, options_};
+  }
 
   // Keeps the better attempt; true if it will do.
   bool take(Attempt attempt) {
@@ -168,39 +238,45 @@ class Ladder {
     }
     p.times = std::move(times_.times);
     p.notes.insert(p.notes.end(), notes_.begin(), notes_.end());
-    if (!best_->tolerable)
-      p.notes.push_back("tolerance " + short_number(request_.automatic.tolerance) + " of " +
-                        to_string(request_.automatic.measure) + " not reached: measured " +
-                        short_number(best_->worst_error));
+    if (!options_.time_s && !best_->tolerable)
+      p.notes.push_back("tolerance " + short_number(options_.aim()) + " of " + to_string(options_.measure) +
+                        " not reached: measured " + short_number(best_->worst_error));
     return map;
   }
 
   void describe(LightMap& map) const {
     Provenance& p = map.provenance;
-    p.settings.emplace_back("tolerance", short_number(request_.automatic.tolerance));
-    p.settings.emplace_back("tolerance_measure", to_string(request_.automatic.measure));
+    if (options_.time_s)
+      p.settings.emplace_back("time_s", short_number(*options_.time_s));
+    else
+      p.settings.emplace_back("tolerance", short_number(options_.aim()));
+    p.settings.emplace_back("tolerance_measure", to_string(options_.measure));
     p.settings.emplace_back("chosen_method", best_->name);
     p.settings.emplace_back("tried_methods", tried_);
     add_probe_settings(plan_, p);
     const Resamples resamples(probes_.probes.size(), plan_.seed);
     for (std::size_t b = 0; b < map.bands.size(); ++b) {
-      if (const auto& c = best_->bands[b].correction)
-        p.settings.emplace_back("correction." + map.bands[b].band, to_text(*c));
-      add_error_bar(best_->bands[b].sample, resamples, map.bands[b], p);
+      const JudgedBand& judged = best_->bands[b];
+      if (judged.correction)
+        p.settings.emplace_back("correction." + map.bands[b].band, to_text(*judged.correction));
+      add_error_bar(judged.sample, resamples, map.bands[b], p);
+      if (judged.group) add_group_bar(*judged.group, options_.measure, plan_.seed, map.bands[b].band, p);
     }
   }
 
+  const LightScene& scene_;
   const OpticsTable& optics_;
   const Illumination& light_;
   const LightRequest& request_;
+  const AutoOptions& options_;
   const ProbePlan plan_;
   const MethodRunner& run_;
   const RunControl& control_;
-  const LightScene& light_scene_;
-  const Forest& forest_;
-  const ForestIndex& index_;
-  std::unique_ptr<ProbeScene> scene_;
+  const SceneSizes sizes_;
+  double slowness_ = 1.0;
+  std::unique_ptr<ProbeScene> rays_;
   ProbeSet probes_;
+  std::optional<GroupProbes> groups_;
   Provenance times_;  // of all attempts
   std::optional<Attempt> best_;
   std::string tried_;

@@ -16,8 +16,8 @@ struct ProbePlan {
   std::uint64_t seed = 1;
 };
 
-// What the tolerance is on, in the worst band. Light is front + back irradiance; errors of elements, of the
-// mean and of layers are relative to the mean irradiance, of trees to the mean over trees.
+// What the tolerance is on, in the worst band. Light is front + back irradiance. Relative to its mean: over
+// elements, over the whole area, over trees, over layers.
 enum class AutoMeasure {
   kElementRms,       // root mean square error of the elements
   kBias,             // error of the area-weighted mean

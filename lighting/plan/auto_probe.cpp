@@ -67,10 +67,10 @@ std::vector<std::uint32_t> all_of(const ErrorSample& s) {
 
 }  // namespace
 
-LightParts parts_of(const ElementLight& e) {
+LightParts parts_of(const ElementLight& e, double sunlit_fraction) {
   const auto sum = [](float a, float b) { return static_cast<double>(a) + b; };
   return {sum(e.front.direct_w_m2, e.back.direct_w_m2), sum(e.front.sky_w_m2, e.back.sky_w_m2),
-          sum(e.front.scattered_w_m2, e.back.scattered_w_m2)};
+          sum(e.front.scattered_w_m2, e.back.scattered_w_m2), sunlit_fraction};
 }
 
 LightParts parts_of(const ProbeBand& p) {
@@ -130,7 +130,8 @@ ErrorBar error_bar(const ErrorSample& sample, const Resamples& resamples) {
 
 PointError point_error(const ErrorSample& sample) {
   const std::vector<std::uint32_t> all = all_of(sample);
-  return {bias_of(sample, all), root(square_of(sample, all).value)};
+  const Figure square = square_of(sample, all);
+  return {bias_of(sample, all), root(square.value), root(1.96 * square.standard_error)};
 }
 
 double mean_total_w_m2(const BandLightMap& map) {

@@ -21,10 +21,11 @@ namespace sunfleck {
 // Light on both faces of an element together, by its last way.
 struct LightParts {
   double direct_w_m2 = 0, sky_w_m2 = 0, scattered_w_m2 = 0;
+  double sunlit = 0;  // fraction
   double diffuse() const { return sky_w_m2 + scattered_w_m2; }
   double total() const { return direct_w_m2 + diffuse(); }
 };
-LightParts parts_of(const ElementLight& light);
+LightParts parts_of(const ElementLight& light, double sunlit_fraction = 0);
 LightParts parts_of(const ProbeBand& light);
 
 struct ProbeSet {
@@ -57,6 +58,7 @@ ErrorBar error_bar(const ErrorSample& sample, const Resamples& resamples);
 struct PointError {
   Figure bias;
   double element_rms = 0;
+  double resolution = 0;  // the smallest RMS that the probes tell from 0, at 1.96 standard errors
 };
 PointError point_error(const ErrorSample& sample);
 

@@ -121,10 +121,15 @@ ProbePlan read_probes(const ConfigTable& table) {
 
 AutoOptions read_auto(const ConfigTable& table) {
   AutoOptions o;
-  o.tolerance = table.number_or("tolerance", o.tolerance, {1e-6, 1});
-  o.measure = table.choice_or("measure", to_string(o.measure), {"element_rms", "bias"}) == "bias"
-                  ? AutoMeasure::kBias
-                  : AutoMeasure::kElementRms;
+  if (table.has("tolerance") && table.has("time_s"))
+    throw_invalid(table.where("time_s"), "a tolerance is given as well",
+                  "one of them: what the answer must be worth, or how long it may take");
+  if (table.has("tolerance")) o.tolerance = table.number("tolerance", {1e-6, 1});
+  if (table.has("time_s")) o.time_s = table.number("time_s", {1e-6, 1e7});
+  o.measure =
+      *auto_measure_from_string(table.choice_or("measure", to_string(o.measure), auto_measure_names()));
+  o.layer_m = table.number_or("layer_m", o.layer_m, {1e-3, 1e6});
+  o.layers = static_cast<int>(table.integer_or("layers", o.layers, {0, 10000}));
   return o;
 }
 
@@ -133,6 +138,8 @@ AutoOptions read_auto(const ConfigTable& table) {
 LightRequest read_light_request(const ConfigTable& table) {
   LightRequest request;
   request.method = method_from_string(table.text_or("method", "reference"), table.where("method"));
+  request.skip =
+      table.choice_or("skip", "auto", {"auto", "never"}) == "auto" ? Skipping::kAuto : Skipping::kNever;
   Illumination& light = request.light;
   if (const auto sun = table.table_if("sun")) {
     light.to_sun = read_to_sun(*sun);

@@ -26,6 +26,9 @@ std::string to_string(Method method);  // reference, single_scattering, spp, spp
 Method method_from_string(const std::string& name, const std::string& where);  // throws, listing the names
 const std::vector<std::string>& method_names();
 
+// Whether work that cannot change the answer by more than a stated bound is left out, see plan.h.
+enum class Skipping { kAuto, kNever };
+
 // What changes the answer.
 struct LightRequest {
   Method method = Method::kReference;
@@ -36,6 +39,7 @@ struct LightRequest {
   EnvelopeOptions envelope;
   GridOptions grid;
   AutoOptions automatic;
+  Skipping skip = Skipping::kAuto;
   // Measures the error of the answer, whatever the method; `auto` always does, by the defaults if not given.
   std::optional<ProbePlan> probes;
 };

@@ -14,6 +14,7 @@ struct LightScene {
   const ForestIndex& index;
   const std::string& forest_hash;  // content_hash()
   const PreparedStore& store;
+  int threads = 1;  // that work on the request
 };
 
 }  // namespace sunfleck

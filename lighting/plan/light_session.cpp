@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <thread>
 #include <utility>
 
 #include "lighting/base/summaries.h"
@@ -30,22 +31,28 @@ std::string next_prefix() {
   return "session " + std::to_string(++count) + ": ";
 }
 
-// Takes away the light that cannot matter, so that no estimator works for it. Returns what was skipped.
-std::vector<SkipNote> drop_idle_sources(Illumination& light) {
-  const auto none = [&](double BandLight::*strength) {
-    return std::all_of(light.bands.begin(), light.bands.end(),
-                       [&](const BandLight& b) { return b.*strength == 0.0; });
-  };
-  std::vector<SkipNote> skipped;
-  if (none(&BandLight::beam_normal_w_m2)) {
-    skipped.push_back({"direct sun", "its irradiance is 0 in every band", 0.0});
-  } else if (!light.sun_is_up()) {
-    skipped.push_back({"direct sun", "the sun is at or below the horizon", 0.0});
-    for (BandLight& b : light.bands) b.beam_normal_w_m2 = 0.0;
+bool bounces_skipped(const Plan& plan) {
+  return std::any_of(plan.skips.begin(), plan.skips.end(), [](const PlannedSkip& skip) {
+    return std::any_of(skip.bound_w_m2.begin(), skip.bound_w_m2.end(), [](double x) { return x > 0.0; });
+  });
+}
+
+LightRequest with_bounces(LightRequest request, const Plan& plan) {
+  if (plan.one_bounce) request.reference.max_iterations = request.grid.max_iterations = 1;
+  return request;
+}
+
+// What elements absorb follows from their true optics; an energy budget without the skipped light would not
+// close, and a series that was cut on purpose did not fail to converge.
+void take_true_optics(const LightScene& scene, const OpticsTable& optics, const Plan& plan, LightMap& map) {
+  summarize(scene.forest, scene.index, optics, map);
+  for (BandLightMap& band : map.bands) {
+    band.has_budget = false;
+    band.budget = {};
   }
-  if (none(&BandLight::diffuse_horizontal_w_m2))
-    skipped.push_back({"sky light", "its irradiance is 0 in every band", 0.0});
-  return skipped;
+  if (plan.one_bounce)
+    std::erase_if(map.provenance.notes,
+                  [](const std::string& n) { return n.find("had not converged") != std::string::npos; });
 }
 
 // One note per skipped thing: an estimator may have said in its own words what was taken away before it.
@@ -81,18 +88,25 @@ LightSession::LightSession(const Forest& forest, std::shared_ptr<PreparedCache> 
 
 LightSession::~LightSession() { cache_->forget(store_.prefix); }
 
+Plan LightSession::plan(const LightRequest& request) const { return make_plan(forest_, index_, request); }
+
 LightMap LightSession::compute(const LightRequest& request, const CostOptions& cost,
                                const RunControl& control) const {
-  const OpticsTable optics(forest_, request.optics);
-  Illumination light = checked(request.light, optics.band_count());
-  if (request.probes) check_options(*request.probes);
-  const std::vector<SkipNote> skipped = drop_idle_sources(light);
+  const Plan plan = this->plan(request);
+  const OpticsTable optics(forest_, request.optics), seen(forest_, plan.optics);
+  const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  const LightScene scene = this->scene(cost.threads > 0 ? std::min(cost.threads, cores) : cores);
   LightMap map;
   with_threads(cost.threads, [&] {
-    map = run_method(scene(), optics, light, request, control);
+    const auto run = [&](const LightRequest& asked) {
+      return run_method(scene, seen, plan.light, with_bounces(asked, plan), control);
+    };
+    map = request.method == Method::kAuto ? auto_light_map(scene, optics, plan.light, request, run, control)
+                                          : run(request);
+    if (bounces_skipped(plan)) take_true_optics(scene, optics, plan, map);
     if (request.probes && request.method != Method::kAuto)
-      add_error_bars(scene(), optics, light, *request.probes, request.reference.ground, map, control);
-    sign(map, scene(), request, skipped);
+      add_error_bars(scene, optics, plan.light, *request.probes, request.reference.ground, map, control);
+    sign(map, scene, request, skip_notes(plan, map));
   });
   if (const std::string violation = find_violation(map, index_); !violation.empty())
     throw ContractViolation("the result of " + map.provenance.method + " holds " + violation);

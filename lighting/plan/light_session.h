@@ -4,6 +4,7 @@
 //   ray scene, receivers        nothing but the forest (and whether there is ground)
 //   hit matrix of `reference`   seed, rays, sky model
 //   sun rays of `reference`     seed, rays, sun direction and disc
+//   sun exposure of `auto`      sun direction and disc, precision, seed
 //
 // Answers have the same bytes as without a session. Add what a method prepares in run_method.cpp: one
 // PreparedKey with every number it depends on.
@@ -15,6 +16,7 @@
 #include "lighting/base/prepared_cache.h"
 #include "lighting/plan/light_request.h"
 #include "lighting/plan/light_scene.h"
+#include "lighting/plan/plan.h"
 
 namespace sunfleck {
 
@@ -34,13 +36,16 @@ class LightSession {
   // As compute_light_map().
   LightMap compute(const LightRequest& request, const CostOptions& cost, const RunControl& control) const;
 
+  // What compute() would do and skip, and its cost; throws what is wrong with the request.
+  Plan plan(const LightRequest& request) const;
+
   const Forest& forest() const { return forest_; }
   const ForestIndex& index() const { return index_; }
   const std::string& forest_hash() const { return forest_hash_; }
   PreparedCache::Stats cached() const { return cache_->stats(); }
 
  private:
-  LightScene scene() const { return {forest_, index_, forest_hash_, store_}; }
+  LightScene scene(int threads) const { return {forest_, index_, forest_hash_, store_, threads}; }
 
   const Forest& forest_;
   const ForestIndex index_;

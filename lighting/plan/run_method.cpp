@@ -1,6 +1,5 @@
 #include "lighting/plan/run_method.h"
 
-#include "lighting/plan/auto_method.h"
 #include "sim/base/contract.h"
 
 namespace sunfleck {
@@ -41,13 +40,10 @@ LightMap run_method(const LightScene& scene, const OpticsTable& optics, const Il
                                 control);
     case Method::kGrid:
       return grid_light_map(forest, optics, light, request.grid, control);
-    case Method::kAuto:
-      return auto_light_map(
-          scene, optics, light, request,
-          [&](const LightRequest& asked) { return run_method(scene, optics, light, asked, control); },
-          control);
+    case Method::kAuto:  // chooses among the others: auto_light_map()
+      break;
   }
-  throw ContractViolation("unknown method");
+  throw ContractViolation("not a method of its own");
 }
 
 }  // namespace sunfleck

@@ -7,7 +7,8 @@
 
 namespace sunfleck {
 
-// Runs the method that the request names. `light` as returned by checked(), idle sources dropped.
+// Runs the method that the request names, any but kAuto. `light` as returned by checked(), idle sources
+// dropped.
 LightMap run_method(const LightScene& scene, const OpticsTable& optics, const Illumination& light,
                     const LightRequest& request, const RunControl& control);
 

@@ -10,6 +10,10 @@ std::uint64_t bytes_of(const std::vector<T>& v) {
   return v.size() * sizeof(T);
 }
 
+std::uint64_t surfaces_bytes(const Surfaces& s) {
+  return bytes_of(s.order) + s.receivers.surface_count() * sizeof(float) + sizeof(Surfaces);
+}
+
 PreparedKey knobs_key(std::string_view what, const KeptRays::Knobs& k) {
   return PreparedKey(what)
       .add("ground", k.ground ? 1 : 0)
@@ -19,8 +23,10 @@ PreparedKey knobs_key(std::string_view what, const KeptRays::Knobs& k) {
 
 }  // namespace
 
-Surfaces::Surfaces(const Forest& forest, const GroundCells& cells)
-    : ground(cells), receivers(forest, ground), order(visiting_order(receivers)) {}
+Surfaces::Surfaces(const Forest& forest, const GroundCells& cells, bool ordered)
+    : ground(cells),
+      receivers(forest, ground),
+      order(ordered ? visiting_order(receivers) : std::vector<std::uint32_t>{}) {}
 
 std::shared_ptr<const RayScene> KeptRays::scene(bool ground) const {
   return store_.get<RayScene>(
@@ -38,12 +44,16 @@ std::shared_ptr<const Surfaces> KeptRays::surfaces(bool ground, double cell_m) c
   return store_.get<Surfaces>(
       PreparedKey("surfaces").add("ground", ground ? 1 : 0).add("cell_m", cell_m), control_,
       [&] {
-        return std::make_shared<const Surfaces>(forest_,
-                                                ground ? ground_cells_for(forest_, cell_m) : GroundCells{});
+        return std::make_shared<const Surfaces>(
+            forest_, ground ? ground_cells_for(forest_, cell_m) : GroundCells{}, true);
       },
-      [](const Surfaces& s) {
-        return bytes_of(s.order) + s.receivers.surface_count() * sizeof(float) + sizeof(Surfaces);
-      });
+      surfaces_bytes);
+}
+
+std::shared_ptr<const Surfaces> KeptRays::plain_surfaces() const {
+  return store_.get<Surfaces>(
+      PreparedKey("plain surfaces"), control_,
+      [&] { return std::make_shared<const Surfaces>(forest_, GroundCells{}, false); }, surfaces_bytes);
 }
 
 std::shared_ptr<const HitMatrix> KeptRays::matrix(const Knobs& knobs, SkyModel sky, int rays,

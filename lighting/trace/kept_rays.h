@@ -16,13 +16,13 @@ namespace sunfleck::trace {
 
 // Numbered receivers over ground cells; immutable. `forest` must outlive it.
 struct Surfaces {
-  Surfaces(const Forest& forest, const GroundCells& cells);
+  Surfaces(const Forest& forest, const GroundCells& cells, bool ordered);
   Surfaces(const Surfaces&) = delete;
   Surfaces& operator=(const Surfaces&) = delete;
 
   const GroundCells ground;
   const Receivers receivers;
-  const std::vector<std::uint32_t> order;  // visiting_order()
+  const std::vector<std::uint32_t> order;  // visiting_order(), where asked for
 };
 
 class KeptRays {
@@ -34,6 +34,8 @@ class KeptRays {
   std::shared_ptr<const RayScene> scene(bool ground) const;
   // Ground cells of about `cell_m` (0: chosen from the scene), or no ground.
   std::shared_ptr<const Surfaces> surfaces(bool ground, double cell_m) const;
+  // Without ground cells and order, for a few probes.
+  std::shared_ptr<const Surfaces> plain_surfaces() const;
 
   struct Knobs {
     bool ground = true;

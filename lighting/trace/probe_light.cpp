@@ -104,11 +104,11 @@ class Prober {
 }  // namespace
 
 ProbeScene::ProbeScene(const Forest& forest, bool ground, const RunControl& control)
-    : surfaces_(std::make_shared<const Surfaces>(forest, GroundCells{})),
+    : surfaces_(std::make_shared<const Surfaces>(forest, GroundCells{}, false)),
       rays_(std::make_shared<const RayScene>(forest, RayScene::Options{.ground = ground}, control)) {}
 
 ProbeScene::ProbeScene(const KeptRays& kept, bool ground)
-    : surfaces_(kept.surfaces(false, 0.0)), rays_(kept.scene(ground)) {}
+    : surfaces_(kept.plain_surfaces()), rays_(kept.scene(ground)) {}
 
 std::vector<ProbeLight> probe_light(const ProbeScene& scene, const OpticsTable& optics,
                                     const Illumination& light, std::span<const std::size_t> elements,

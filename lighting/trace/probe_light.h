@@ -35,7 +35,6 @@ class ProbeScene {
 
   const RayScene& rays() const { return *rays_; }
   const trace::Receivers& receivers() const { return surfaces_->receivers; }
-  const std::vector<std::uint32_t>& order() const { return surfaces_->order; }  // visiting_order()
 
  private:
   std::shared_ptr<const trace::Surfaces> surfaces_;  // without ground cells

@@ -68,7 +68,7 @@ void auto_against_reference(const Forest& forest, int repeats) {
                 setting(run.map, "correction.PAR").c_str());
     print_stages(run.map);
   }
-  for (const int rays : {8, 16, 32, 64}) {
+  for (const int rays : {64}) {
     LightRequest asked = par_request(Method::kReference);
     asked.reference.rays_per_face = asked.reference.sun_rays_per_element = rays;
     asked.probes = ProbePlan{};

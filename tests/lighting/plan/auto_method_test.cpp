@@ -23,7 +23,8 @@ std::string setting(const LightMap& map, const std::string& key) {
 
 LightRequest automatic(double tolerance, AutoMeasure measure = AutoMeasure::kElementRms) {
   LightRequest r = sun_and_sky(Method::kAuto);
-  r.automatic = {tolerance, measure};
+  r.automatic.tolerance = tolerance;
+  r.automatic.measure = measure;
   return r;
 }
 
@@ -74,15 +75,15 @@ TEST(Auto, EndsWithTheReferenceForATightTolerance) {
   for (const std::size_t b : {0u, 1u}) EXPECT_LT(true_rms(forest, map, b), 0.055);
 }
 
-// Between the two: diffuse light from a cheap method, direct light by as many rays as the rest leaves room
-// for. Almost all light is direct here.
-TEST(Auto, TracesTheSunWhereThatIsEnough) {
+// Between the two: diffuse light from a cheap method, direct light as the sun sees it. Almost all light is
+// direct here.
+TEST(Auto, DrawsTheSunWhereThatIsEnough) {
   const Forest forest = crown();
   LightRequest r = automatic(0.12);
   r.light.bands = {{600, 10}, {600, 10}};
   r.optics.overrides = {{"*", "NIR", {{0.1, 0.1, 0.05, 0.05}, 0.1}}};
   const LightMap map = compute(forest, r);
-  EXPECT_NE(setting(map, "chosen_method").find("sun rays"), std::string::npos)
+  EXPECT_NE(setting(map, "chosen_method").find("drawn sun"), std::string::npos)
       << setting(map, "tried_methods");
   EXPECT_LE(std::stod(setting(map, "measured_element_rms.PAR")), 0.12);
 }

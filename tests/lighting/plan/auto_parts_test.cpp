@@ -146,7 +146,7 @@ TEST(Correction, NeverGoesBelowZeroAndGivesFacesAndSumsAlike) {
   const ElementLight light{{10, 20, 5}, {0, 4, 1}, 0};
   for (const Correction& c : {Correction{-100, 1, 1, 1}, Correction{3, 0.5, 2, 1.5}, Correction{-2, 1, 0, 1},
                               Correction{4, 1, 0, 0}}) {
-    const ElementLight after = corrected(light, c);
+    const ElementLight after = corrected(light, 0, c);
     const LightParts sums = corrected(parts_of(light), c);
     for (const FaceLight& f : {after.front, after.back})
       for (const float x : {f.direct_w_m2, f.sky_w_m2, f.scattered_w_m2}) EXPECT_GE(x, 0.0f);
@@ -154,7 +154,7 @@ TEST(Correction, NeverGoesBelowZeroAndGivesFacesAndSumsAlike) {
     EXPECT_NEAR(parts_of(after).sky_w_m2, sums.sky_w_m2, 1e-4);
     EXPECT_NEAR(parts_of(after).scattered_w_m2, sums.scattered_w_m2, 1e-4);
   }
-  const ElementLight dark = corrected(ElementLight{}, {6, 1, 1, 1});
+  const ElementLight dark = corrected(ElementLight{}, 0, {6, 1, 1, 1});
   EXPECT_EQ(dark.front.scattered_w_m2, 3.0f);
   EXPECT_EQ(dark.back.scattered_w_m2, 3.0f);
 }
