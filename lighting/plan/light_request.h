@@ -10,6 +10,7 @@
 #include "lighting/envelope/envelope_estimator.h"
 #include "lighting/optics/optics.h"
 #include "lighting/plan/auto_options.h"
+#include "lighting/plan/selection.h"
 #include "lighting/sky/illumination.h"
 #include "lighting/slab/spp_estimators.h"
 #include "lighting/trace/reference.h"
@@ -40,6 +41,7 @@ struct LightRequest {
   GridOptions grid;
   AutoOptions automatic;
   Skipping skip = Skipping::kAuto;
+  Selection selection;  // the answer holds only these trees, numbered as in selected_forest()
   // Measures the error of the answer, whatever the method; `auto` always does, by the defaults if not given.
   std::optional<ProbePlan> probes;
 };

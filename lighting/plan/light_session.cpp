@@ -110,6 +110,15 @@ LightMap LightSession::compute(const LightRequest& request, const CostOptions& c
   });
   if (const std::string violation = find_violation(map, index_); !violation.empty())
     throw ContractViolation("the result of " + map.provenance.method + " holds " + violation);
+  return request.selection.everything() ? map : selected(std::move(map), request);
+}
+
+LightMap LightSession::selected(LightMap whole, const LightRequest& request) const {
+  const std::vector<std::uint32_t> instances = selected_instances(forest_, request.selection);
+  LightMap map =
+      selected_light(whole, index_, selected_forest(forest_, request.selection), instances, request.optics);
+  map.provenance.settings.emplace_back("selection", std::to_string(instances.size()) + " of " +
+                                                        std::to_string(forest_.instances.size()) + " trees");
   return map;
 }
 

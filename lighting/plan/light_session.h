@@ -45,6 +45,7 @@ class LightSession {
   PreparedCache::Stats cached() const { return cache_->stats(); }
 
  private:
+  LightMap selected(LightMap whole, const LightRequest& request) const;
   LightScene scene(int threads) const { return {forest_, index_, forest_hash_, store_, threads}; }
 
   const Forest& forest_;

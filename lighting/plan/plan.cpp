@@ -64,6 +64,7 @@ double most_first_light_w_m2(const Illumination& light, const BandLight& band) {
 }
 
 void blacken(OpticsRequest& optics, std::size_t band, bool soil) {
+  std::erase_if(optics.overrides, [&](const OpticsOverride& o) { return o.band == optics.bands[band]; });
   optics.overrides.push_back({"*", optics.bands[band], {}});
   if (soil) optics.soil_albedo[band] = 0.0;
 }
@@ -241,6 +242,7 @@ double predicted_bytes(const LightRequest& request, double elements, double wood
 
 Plan make_plan(const Forest& forest, const ForestIndex& index, const LightRequest& request) {
   check_options_of(request);
+  if (!request.selection.everything()) selected_instances(forest, request.selection);
   const OpticsTable optics(forest, request.optics);
   Plan plan;
   plan.method = request.method;

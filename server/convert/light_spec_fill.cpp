@@ -61,6 +61,44 @@ void fill_reference(const ReferenceOptions& options, v1::ReferenceOptions& messa
   message.set_ground(options.ground);
 }
 
+v1::AutoMeasure message_measure(AutoMeasure measure) {
+  switch (measure) {
+    case AutoMeasure::kElementRms:
+      return v1::AUTO_MEASURE_ELEMENT_RMS;
+    case AutoMeasure::kBias:
+      return v1::AUTO_MEASURE_BIAS;
+    case AutoMeasure::kTreeRms:
+      return v1::AUTO_MEASURE_TREE_RMS;
+    case AutoMeasure::kTreeAbsorbedRms:
+      return v1::AUTO_MEASURE_TREE_ABSORBED_RMS;
+    case AutoMeasure::kLayerRms:
+      return v1::AUTO_MEASURE_LAYER_RMS;
+  }
+  return v1::AUTO_MEASURE_UNSPECIFIED;
+}
+
+void fill_auto(const AutoOptions& options, v1::AutoOptions& message) {
+  if (options.tolerance) message.set_tolerance(*options.tolerance);
+  if (options.time_s) message.set_time_s(*options.time_s);
+  message.set_measure(message_measure(options.measure));
+  message.set_layer_m(options.layer_m);
+  message.set_layers(options.layers);
+}
+
+void fill_grid(const GridOptions& options, v1::GridOptions& message) {
+  message.set_directions(options.directions);
+  message.set_cell_m(options.cell_m);
+  message.set_convergence(options.convergence);
+  message.set_max_iterations(options.max_iterations);
+}
+
+void fill_probes(const ProbePlan& plan, v1::ProbeOptions& message) {
+  message.set_count(plan.count);
+  message.set_paths_per_face(plan.paths_per_face);
+  message.set_sun_rays(plan.sun_rays);
+  message.set_seed(plan.seed);
+}
+
 }  // namespace
 
 void fill_message(const LightRequest& request, v1::LightSpec& message) {
@@ -78,6 +116,10 @@ void fill_message(const LightRequest& request, v1::LightSpec& message) {
   message.mutable_spp()->set_map_resolution(request.spp.map_resolution);
   message.mutable_spp()->set_grid_resolution(request.spp.grid_resolution);
   message.mutable_envelope()->set_cell_m(request.envelope.cell_m);
+  fill_grid(request.grid, *message.mutable_grid());
+  fill_auto(request.automatic, *message.mutable_auto_());
+  if (request.probes) fill_probes(*request.probes, *message.mutable_probes());
+  message.set_skip(request.skip == Skipping::kNever ? v1::SKIPPING_NEVER : v1::SKIPPING_AUTO);
 }
 
 std::string request_key(const LightRequest& request) {

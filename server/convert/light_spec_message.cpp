@@ -32,11 +32,10 @@ Method method_from_message(v1::Method method, const std::string& field, Violatio
     default:
       break;
   }
-  violations.add(
-      field,
-      method == v1::METHOD_UNSPECIFIED
-          ? "must be given: reference, single_scattering, spp, spp_g, envelope, envelope_marched, grid or auto"
-          : "unknown method " + std::to_string(method));
+  violations.add(field, method == v1::METHOD_UNSPECIFIED
+                            ? "must be given: reference, single_scattering, spp, spp_g, envelope, "
+                              "envelope_marched, grid or auto"
+                            : "unknown method " + std::to_string(method));
   return Method::kReference;
 }
 
@@ -183,6 +182,77 @@ void read_closed_forms(const v1::LightSpec& message, const std::string& field, V
   violations.number(field + ".envelope.cell_m", request.envelope.cell_m, 0, 1e6);
 }
 
+void read_grid(const v1::GridOptions& message, const std::string& field, Violations& violations,
+               GridOptions& options) {
+  if (message.has_directions()) options.directions = message.directions();
+  if (message.has_cell_m()) options.cell_m = message.cell_m();
+  if (message.has_convergence()) options.convergence = message.convergence();
+  if (message.has_max_iterations()) options.max_iterations = message.max_iterations();
+  if (options.directions != 8 && options.directions != 14 && options.directions != 26)
+    violations.add(field + ".directions", "must be 8, 14 or 26, got " + std::to_string(options.directions));
+  violations.number(field + ".cell_m", options.cell_m, 0, 1e6);
+  violations.above(field + ".convergence", options.convergence, 0, 0.5);
+  violations.integer(field + ".max_iterations", options.max_iterations, 1, 10'000);
+}
+
+AutoMeasure measure_from_message(v1::AutoMeasure measure, const std::string& field, Violations& violations) {
+  switch (measure) {
+    case v1::AUTO_MEASURE_UNSPECIFIED:
+    case v1::AUTO_MEASURE_ELEMENT_RMS:
+      return AutoMeasure::kElementRms;
+    case v1::AUTO_MEASURE_BIAS:
+      return AutoMeasure::kBias;
+    case v1::AUTO_MEASURE_TREE_RMS:
+      return AutoMeasure::kTreeRms;
+    case v1::AUTO_MEASURE_TREE_ABSORBED_RMS:
+      return AutoMeasure::kTreeAbsorbedRms;
+    case v1::AUTO_MEASURE_LAYER_RMS:
+      return AutoMeasure::kLayerRms;
+    default:
+      break;
+  }
+  violations.add(field, "unknown measure " + std::to_string(measure));
+  return AutoMeasure::kElementRms;
+}
+
+void read_auto(const v1::AutoOptions& message, const std::string& field, Violations& violations,
+               AutoOptions& options) {
+  options.measure = measure_from_message(message.measure(), field + ".measure", violations);
+  if (message.has_tolerance()) {
+    violations.above(field + ".tolerance", message.tolerance(), 0, 1);
+    options.tolerance = message.tolerance();
+  }
+  if (message.has_time_s()) {
+    violations.above(field + ".time_s", message.time_s(), 0, 1e7);
+    options.time_s = message.time_s();
+  }
+  if (message.has_tolerance() && message.has_time_s())
+    violations.add(field + ".time_s", "must not be given together with tolerance");
+  if (message.has_layer_m()) options.layer_m = message.layer_m();
+  if (message.has_layers()) options.layers = message.layers();
+  violations.above(field + ".layer_m", options.layer_m, 0, 1e6);
+  violations.integer(field + ".layers", options.layers, 0, 10'000);
+}
+
+void read_probes(const v1::ProbeOptions& message, const std::string& field, Violations& violations,
+                 std::optional<ProbePlan>& probes) {
+  ProbePlan& plan = probes.emplace();
+  if (message.has_count()) plan.count = message.count();
+  if (message.has_paths_per_face()) plan.paths_per_face = message.paths_per_face();
+  if (message.has_sun_rays()) plan.sun_rays = message.sun_rays();
+  if (message.has_seed()) plan.seed = message.seed();
+  violations.integer(field + ".count", plan.count, 16, 1'000'000);
+  violations.integer(field + ".paths_per_face", plan.paths_per_face, 2, 65536);
+  violations.integer(field + ".sun_rays", plan.sun_rays, 2, 65536);
+}
+
+Skipping skipping_from_message(v1::Skipping skip, const std::string& field, Violations& violations) {
+  if (skip == v1::SKIPPING_NEVER) return Skipping::kNever;
+  if (skip != v1::SKIPPING_UNSPECIFIED && skip != v1::SKIPPING_AUTO)
+    violations.add(field, "unknown value " + std::to_string(skip));
+  return Skipping::kAuto;
+}
+
 }  // namespace
 
 LightRequest light_request_from_message(const v1::LightSpec& message, const std::string& field,
@@ -195,14 +265,11 @@ LightRequest light_request_from_message(const v1::LightSpec& message, const std:
   read_reference(message.reference(), field + ".reference", violations, request.reference);
   request.reference.memory_limit_bytes = limits.request_memory_bytes;
   read_closed_forms(message, field, violations, request);
+  read_grid(message.grid(), field + ".grid", violations, request.grid);
+  read_auto(message.auto_(), field + ".auto", violations, request.automatic);
+  if (message.has_probes()) read_probes(message.probes(), field + ".probes", violations, request.probes);
+  request.skip = skipping_from_message(message.skip(), field + ".skip", violations);
   return request;
-}
-
-double predicted_bytes(const LightRequest& request, std::size_t elements) {
-  const double n = static_cast<double>(elements);
-  const double maps = n * static_cast<double>(request.optics.bands.size()) * (sizeof(ElementLight) + 4.0) * 2;
-  if (request.method != Method::kReference) return maps;
-  return maps + n * 2 * request.reference.rays_per_face * sizeof(std::uint32_t);
 }
 
 }  // namespace sunfleck

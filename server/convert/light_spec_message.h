@@ -21,8 +21,4 @@ void fill_message(const LightRequest& request, v1::LightSpec& message);
 // The same for the same answer: a hash of everything in the request.
 std::string request_key(const LightRequest& request);
 
-// Bytes a call needs at most beside the scene, from the sizes alone: stored ray hits of the reference and the
-// maps themselves.
-double predicted_bytes(const LightRequest& request, std::size_t elements);
-
 }  // namespace sunfleck

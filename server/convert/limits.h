@@ -11,6 +11,7 @@ struct Limits {
   std::uint64_t elements_per_scene = 20'000'000;
   std::uint64_t scene_store_bytes = 0;      // 0: a tenth of the machine's memory
   std::uint64_t light_map_cache_bytes = 0;  // 0: a twentieth of the machine's memory
+  std::uint64_t prepared_bytes = 0;         // 0: a twentieth of the machine's memory
   std::uint64_t request_memory_bytes = 0;   // 0: 15 % of the machine's memory, a quarter of the server's 60 %
   std::uint32_t bands = 32;
   std::uint32_t overrides = 256;

@@ -13,6 +13,7 @@ void fill_limits(const Limits& limits, v1::Limits& message) {
   message.set_elements_per_scene(limits.elements_per_scene);
   message.set_scene_store_bytes(limits.scene_store_bytes);
   message.set_light_map_cache_bytes(limits.light_map_cache_bytes);
+  message.set_prepared_bytes(limits.prepared_bytes);
   message.set_request_memory_bytes(limits.request_memory_bytes);
   message.set_bands(limits.bands);
   message.set_image_side_px(limits.image_side_px);

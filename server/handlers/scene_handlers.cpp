@@ -58,7 +58,7 @@ grpc::ServerUnaryReactor* SceneHandlers::CreateScene(grpc::CallbackServerContext
     const ForestSpec spec =
         forest_spec_from_message(request->spec(), "spec", state_.species, state_.limits, violations);
     violations.refuse_if_any();
-    const ScenePtr scene = make_scene(grow_forest(spec, state_.species, control), spec.seed);
+    const ScenePtr scene = make_scene(grow_forest(spec, state_.species, control), spec.seed, state_.prepared);
     check_size(*scene, state_.limits);
     fill_scene(*state_.scenes.add(scene), *response);
   });

@@ -21,7 +21,7 @@ UnknownScene::UnknownScene(const std::string& name)
     : Error(ErrorKind::kNotFound, "scene '" + clipped(name) + "'", "no such scene",
             "ListScenes tells what there is; CreateScene makes one") {}
 
-ScenePtr make_scene(Forest forest, std::uint64_t seed) {
+ScenePtr make_scene(Forest forest, std::uint64_t seed, const std::shared_ptr<PreparedCache>& prepared) {
   auto scene = std::make_shared<StoredScene>();
   scene->name = "scenes/" + content_hash(forest);
   scene->forest = std::move(forest);
@@ -31,6 +31,7 @@ ScenePtr make_scene(Forest forest, std::uint64_t seed) {
   scene->bounds = forest_bounds(scene->forest);
   scene->memory_bytes = forest_bytes(scene->forest);
   scene->created = std::chrono::system_clock::now();
+  if (scene->elements > 0) scene->session = std::make_unique<const LightSession>(scene->forest, prepared);
   return scene;
 }
 

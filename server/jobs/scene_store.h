@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "lighting/plan/light_session.h"
 #include "sim/base/error.h"
 #include "sim/forest/forest.h"
 
@@ -24,6 +25,8 @@ struct StoredScene {
   Box bounds;
   std::uint64_t memory_bytes = 0;
   std::chrono::system_clock::time_point created;
+  // What lighting prepared for this forest; null where there is nothing to light. Safe from all threads.
+  std::unique_ptr<const LightSession> session;
 };
 using ScenePtr = std::shared_ptr<const StoredScene>;
 
@@ -33,8 +36,8 @@ class UnknownScene : public Error {
   explicit UnknownScene(const std::string& name);
 };
 
-// Counts, hashes and measures a forest.
-ScenePtr make_scene(Forest forest, std::uint64_t seed);
+// Counts, hashes and measures a forest. `prepared` is shared by all scenes of a server: one budget.
+ScenePtr make_scene(Forest forest, std::uint64_t seed, const std::shared_ptr<PreparedCache>& prepared);
 
 class SceneStore {
  public:

@@ -29,9 +29,10 @@ struct ServerState {
   const SpeciesLibrary species;
   const std::shared_ptr<spdlog::logger> log;
   const std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
-  std::atomic<bool> draining{false};  // new calls are refused
-  std::stop_source ending;            // running calls are stopped
-  std::atomic<int> live_calls{0};     // that still may touch this
+  std::atomic<bool> draining{false};              // new calls are refused
+  std::stop_source ending;                        // running calls are stopped
+  std::atomic<int> live_calls{0};                 // that still may touch this
+  const std::shared_ptr<PreparedCache> prepared;  // of all scenes
   SceneStore scenes;
   LightMapCache light_maps;
   DeadlineWatch watch;

@@ -43,6 +43,7 @@ void read_limits(const ConfigTable& table, Limits& limits) {
       whole(table, "elements_per_scene", limits.elements_per_scene, 1, 1'000'000'000'000);
   limits.scene_store_bytes = whole(table, "scene_store_bytes", 0, 0, kMostBytes);
   limits.light_map_cache_bytes = whole(table, "light_map_cache_bytes", 0, 0, kMostBytes);
+  limits.prepared_bytes = whole(table, "prepared_bytes", 0, 0, kMostBytes);
   limits.request_memory_bytes = whole(table, "request_memory_bytes", 0, 0, kMostBytes);
   limits.bands = small(table, "bands", limits.bands, 1, 10'000);
   limits.overrides = small(table, "overrides", limits.overrides, 0, 100'000);

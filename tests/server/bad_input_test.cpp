@@ -185,6 +185,27 @@ TEST_F(BadInput, LightSpecs) {
        [](Spec& s) { s.mutable_spp()->set_sample_directions(17); }},
       {"light.spp.map_resolution", "[8, 1024]",
        [](Spec& s) { s.mutable_spp()->set_map_resolution(1 << 30); }},
+      {"light.grid.directions", "8, 14 or 26", [](Spec& s) { s.mutable_grid()->set_directions(9); }},
+      {"light.grid.cell_m", "got -1", [](Spec& s) { s.mutable_grid()->set_cell_m(-1); }},
+      {"light.grid.convergence", "got 0", [](Spec& s) { s.mutable_grid()->set_convergence(0); }},
+      {"light.grid.max_iterations", "got 0", [](Spec& s) { s.mutable_grid()->set_max_iterations(0); }},
+      {"light.auto.tolerance", "got 0", [](Spec& s) { s.mutable_auto_()->set_tolerance(0); }},
+      {"light.auto.tolerance", "got 2", [](Spec& s) { s.mutable_auto_()->set_tolerance(2); }},
+      {"light.auto.tolerance", "nan", [](Spec& s) { s.mutable_auto_()->set_tolerance(std::nan("")); }},
+      {"light.auto.time_s", "got 0", [](Spec& s) { s.mutable_auto_()->set_time_s(0); }},
+      {"light.auto.time_s", "together",
+       [](Spec& s) {
+         s.mutable_auto_()->set_time_s(1);
+         s.mutable_auto_()->set_tolerance(0.1);
+       }},
+      {"light.auto.measure", "unknown measure",
+       [](Spec& s) { s.mutable_auto_()->set_measure(static_cast<v1::AutoMeasure>(99)); }},
+      {"light.auto.layer_m", "got 0", [](Spec& s) { s.mutable_auto_()->set_layer_m(0); }},
+      {"light.auto.layers", "got -1", [](Spec& s) { s.mutable_auto_()->set_layers(-1); }},
+      {"light.probes.count", "got 15", [](Spec& s) { s.mutable_probes()->set_count(15); }},
+      {"light.probes.paths_per_face", "got 1", [](Spec& s) { s.mutable_probes()->set_paths_per_face(1); }},
+      {"light.probes.sun_rays", "got 1", [](Spec& s) { s.mutable_probes()->set_sun_rays(1); }},
+      {"light.skip", "unknown", [](Spec& s) { s.set_skip(static_cast<v1::Skipping>(7)); }},
       {"light.envelope.cell_m", "got -1", [](Spec& s) { s.mutable_envelope()->set_cell_m(-1); }},
   };
   const auto stub = v1::LightService::NewStub(channel_);

@@ -15,6 +15,7 @@
 #include "sim/base/error.h"
 #include "sim/base/random.h"
 #include "sunfleck/v1/common.pb.h"
+#include "sunfleck/v1/light.pb.h"
 
 namespace sunfleck {
 namespace {
@@ -54,6 +55,72 @@ TEST(Half, EveryHalfSurvives) {
     } else {
       ASSERT_EQ(half_bits(value), half);
     }
+  }
+}
+
+LightRequest every_knob_set() {
+  LightRequest r;
+  r.method = Method::kAuto;
+  r.optics = {{"PAR"}, {0.2}, {}};
+  r.light.bands = {{100, 50}};
+  r.grid = {.directions = 14, .cell_m = 0.5, .convergence = 0.01, .max_iterations = 7};
+  r.automatic.tolerance = 0.07;
+  r.automatic.measure = AutoMeasure::kLayerRms;
+  r.automatic.layer_m = 2.5;
+  r.automatic.layers = 3;
+  r.probes = ProbePlan{.count = 300, .paths_per_face = 16, .sun_rays = 32, .seed = 9};
+  r.skip = Skipping::kNever;
+  return r;
+}
+
+LightRequest there_and_back(const LightRequest& request) {
+  v1::LightSpec message;
+  fill_message(request, message);
+  Violations violations;
+  const LightRequest back = light_request_from_message(message, "light", {}, violations);
+  violations.refuse_if_any();
+  return back;
+}
+
+TEST(LightSpec, KnobsOfGridAutoAndProbesSurviveTheWire) {
+  const LightRequest r = every_knob_set(), back = there_and_back(r);
+  EXPECT_EQ(back.grid.directions, 14);
+  EXPECT_EQ(back.grid.cell_m, 0.5);
+  EXPECT_EQ(back.grid.convergence, 0.01);
+  EXPECT_EQ(back.grid.max_iterations, 7);
+  EXPECT_EQ(back.automatic.tolerance, 0.07);
+  EXPECT_FALSE(back.automatic.time_s);
+  EXPECT_EQ(back.automatic.measure, AutoMeasure::kLayerRms);
+  EXPECT_EQ(back.automatic.layer_m, 2.5);
+  EXPECT_EQ(back.automatic.layers, 3);
+  ASSERT_TRUE(back.probes);
+  EXPECT_EQ(back.probes->count, 300);
+  EXPECT_EQ(back.probes->paths_per_face, 16);
+  EXPECT_EQ(back.probes->sun_rays, 32);
+  EXPECT_EQ(back.probes->seed, 9u);
+  EXPECT_EQ(back.skip, Skipping::kNever);
+  LightRequest timed = r;
+  timed.automatic.tolerance.reset();
+  timed.automatic.time_s = 0.25;
+  EXPECT_EQ(there_and_back(timed).automatic.time_s, 0.25);
+  EXPECT_FALSE(there_and_back(LightRequest{.optics = r.optics, .light = r.light}).probes);
+}
+
+// Else one request's answer would be taken from the cache for another.
+TEST(LightSpec, EveryKnobIsPartOfTheRequestsIdentity) {
+  const std::vector<void (*)(LightRequest&)> changes = {
+      [](LightRequest& r) { r.grid.directions = 8; },
+      [](LightRequest& r) { r.grid.cell_m = 1; },
+      [](LightRequest& r) { r.automatic.tolerance = 0.08; },
+      [](LightRequest& r) { r.automatic.layers = 4; },
+      [](LightRequest& r) { r.automatic.measure = AutoMeasure::kBias; },
+      [](LightRequest& r) { r.probes->seed = 10; },
+      [](LightRequest& r) { r.probes.reset(); },
+      [](LightRequest& r) { r.skip = Skipping::kAuto; }};
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    LightRequest changed = every_knob_set();
+    changes[i](changed);
+    EXPECT_NE(request_key(changed), request_key(every_knob_set())) << i;
   }
 }
 

@@ -81,6 +81,58 @@ void auto_against_reference(const Forest& forest, int repeats) {
   }
 }
 
+struct Change {
+  const char* what;
+  void (*apply)(LightRequest&);
+};
+
+constexpr Change kChanges[] = {
+    {"sun", [](LightRequest& r) { r.light.to_sun = direction_from_azimuth_zenith(2.0, 0.9); }},
+    {"sky model", [](LightRequest& r) { r.light.sky = SkyModel::kStandardOvercast; }},
+    {"strengths",
+     [](LightRequest& r) {
+       r.light.bands[0] = {100, 300};
+     }},
+    {"leaf optics",
+     [](LightRequest& r) {
+       r.optics.overrides = {{"*", "PAR", {{0.12, 0.12, 0.06, 0.06}, 0.1}}};
+     }},
+    {"soil albedo", [](LightRequest& r) { r.optics.soil_albedo = {0.3}; }}};
+
+bool equal_bytes(const LightMap& a, const LightMap& b) {
+  const auto &x = a.bands[0].elements, &y = b.bands[0].elements;
+  return x.size() == y.size() && std::memcmp(x.data(), y.data(), x.size() * sizeof x[0]) == 0;
+}
+
+void changes_of(Method method) {
+  const Forest forest = clumped_crown();
+  const LightRequest base = par_request(method);
+  std::printf("%-18s", to_string(method).c_str());
+  for (const Change& change : kChanges) {
+    LightRequest asked = base;
+    change.apply(asked);
+    const Run fresh = timed(1, [&] { return compute_light_map(forest, asked, {.threads = 1}, {}); });
+    const LightSession session(forest);
+    session.compute(base, {.threads = 1}, {});
+    const Run again = timed(1, [&] { return session.compute(asked, {.threads = 1}, {}); });
+    if (!equal_bytes(fresh.map, again.map)) {
+      std::printf(" WRONG ANSWER after a change of %s\n", change.what);
+      return;
+    }
+    std::printf("  %.3f / %.3f", again.cpu_s, fresh.cpu_s);
+  }
+  std::printf("\n");
+}
+
+void all_changes() {
+  std::printf(
+      "clumped crown, 40,000 leaves, PAR, one core: CPU seconds after a change in a session / fresh\n%18s",
+      "");
+  for (const Change& change : kChanges) std::printf("  %-13s", change.what);
+  std::printf("\n");
+  for (const std::string& name : method_names()) changes_of(method_from_string(name, "bench"));
+}
+
 }  // namespace
 }  // namespace sunfleck
 
@@ -88,6 +140,7 @@ int main(int count, char** words) {
   using namespace sunfleck;
   const std::string what = count > 1 ? words[1] : "auto";
   const bool stand = count > 2 && std::string(words[2]) == "hectare";
+  if (what == "changes") all_changes();
   if (what == "auto") auto_against_reference(stand ? hectare() : clumped_crown(), stand ? 1 : 3);
   return 0;
 }

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "lighting/plan/auto_groups.h"
 #include "lighting/plan/auto_probe.h"
 #include "tests/lighting/plan/auto_scenes.h"
 
@@ -67,6 +68,25 @@ TrueError true_error(const BandLightMap& map, const TrueLight& truth) {
           std::sqrt(std::max(0.0, squares / n)) / truth.mean_w_m2};
 }
 
+// RMS over groups of the error of their area-weighted mean, relative to the true mean over groups.
+double true_group_rms(const ElementGroups& groups, const BandLightMap& map, const TrueLight& truth) {
+  double squares = 0, means = 0;
+  for (std::size_t g = 0; g < groups.count(); ++g) {
+    double error = 0, mean = 0, below = 0;
+    for (std::size_t k = groups.first[g]; k < groups.first[g + 1]; ++k) {
+      const std::size_t e = groups.element[k];
+      const double share = (groups.area_below_m2[k] - below) / groups.area_m2(g);
+      below = groups.area_below_m2[k];
+      error += share * (parts_of(map.elements[e]).total() - truth.irradiance_w_m2[e]);
+      mean += share * truth.irradiance_w_m2[e];
+    }
+    squares += error * error;
+    means += mean;
+  }
+  const auto n = static_cast<double>(groups.count());
+  return std::sqrt(squares / n) / (means / n);
+}
+
 struct Coverage {
   int inside_bias = 0, inside_rms = 0, bars = 0;
   double bias_width = 0, rms_width = 0;
@@ -115,6 +135,32 @@ class CoveredScene {
     return coverage;
   }
 
+  // Bars of trees, or of layers where there is one tree.
+  std::pair<int, int> count_groups() const {
+    constexpr int kGroupSeeds = 20;
+    AutoOptions options;
+    options.measure = forest_.instances.size() > 1 ? AutoMeasure::kTreeRms : AutoMeasure::kLayerRms;
+    options.layers = 5;
+    const ProbeScene scene(forest_, true, {});
+    const ForestIndex index(forest_);
+    const Illumination light = checked(request_.light, 2);
+    int inside = 0, bars = 0;
+    for (int seed = 1; seed <= kGroupSeeds; ++seed) {
+      const ProbePlan plan{.seed = static_cast<std::uint64_t>(seed)};
+      const GroupProbes drawn = draw_group_probes(scene, optics_, light, plan, options, {});
+      const Resamples resamples(drawn.group_of_draw.size(), plan.seed);
+      for (const LightMap& map : maps_)
+        for (std::size_t b = 0; b < 2; ++b, ++bars) {
+          const ErrorSample sample =
+              sample_group_error(drawn, forest_, index, optics_, map.bands[b], b, options.measure);
+          const Interval bar = error_bar(sample, resamples).element_rms;
+          const double truth = true_group_rms(drawn.groups, map.bands[b], truth_[b]);
+          inside += bar.low <= truth && truth <= bar.high;
+        }
+    }
+    return {inside, bars};
+  }
+
   double truth_noise() const { return truth_[0].area_mean_error_w_m2 / truth_[0].area_mean_w_m2; }
 
  private:
@@ -127,6 +173,7 @@ class CoveredScene {
 
 TEST(ErrorBars, CoverTheTrueErrorAtLeast93TimesIn100) {
   Coverage all;
+  int groups_inside = 0, group_bars = 0;
   for (const Forest& forest : scenes_for_error_bars()) {
     const CoveredScene scene(forest);
     const Coverage c = scene.count();
@@ -134,7 +181,13 @@ TEST(ErrorBars, CoverTheTrueErrorAtLeast93TimesIn100) {
                 forest.name.c_str(), c.inside_bias, c.inside_rms, c.bars, c.bias_width / c.bars,
                 c.rms_width / c.bars, scene.truth_noise());
     all.add(c);
+    const auto [inside, bars] = scene.count_groups();
+    std::printf("%-24s trees or layers %d of %d\n", "", inside, bars);
+    groups_inside += inside;
+    group_bars += bars;
   }
+  // 20 x 4 independent sets of probes, each seen by four bars: one sd 2.4 %.
+  EXPECT_GE(groups_inside, 0.93 * group_bars);
   std::printf("all: bias %.1f %%, rms %.1f %% of %d\n", 100.0 * all.inside_bias / all.bars,
               100.0 * all.inside_rms / all.bars, all.bars);
   EXPECT_GE(all.inside_bias + all.inside_rms, 0.93 * 2 * all.bars);

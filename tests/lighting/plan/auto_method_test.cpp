@@ -103,6 +103,50 @@ TEST(Auto, HoldsTheMeanForAToleranceOnBias) {
   }
 }
 
+// Every tree's mean (or absorbed flux) against a reference of 256 rays.
+TEST(Auto, HoldsAToleranceOnTrees) {
+  const Forest forest = small_stand();
+  LightRequest asked = sun_and_sky(Method::kReference);
+  asked.reference.rays_per_face = asked.reference.sun_rays_per_element = 256;
+  const LightMap truth = compute(forest, asked);
+  for (const AutoMeasure measure : {AutoMeasure::kTreeRms, AutoMeasure::kTreeAbsorbedRms}) {
+    const LightMap map = compute(forest, automatic(0.15, measure));
+    EXPECT_NE(setting(map, "measured_" + to_string(measure) + ".PAR"), "");
+    for (const std::size_t b : {0u, 1u}) {
+      double squares = 0, mean = 0;
+      for (std::size_t t = 0; t < map.bands[b].trees.size(); ++t) {
+        const TreeLight &x = map.bands[b].trees[t], &y = truth.bands[b].trees[t];
+        const bool absorbed = measure == AutoMeasure::kTreeAbsorbedRms;
+        squares += std::pow(
+            absorbed ? x.absorbed_w - y.absorbed_w : x.mean_irradiance_w_m2 - y.mean_irradiance_w_m2, 2);
+        mean += absorbed ? y.absorbed_w : y.mean_irradiance_w_m2;
+      }
+      const auto n = static_cast<double>(map.bands[b].trees.size());
+      // 25 draws of trees know the RMS to about a quarter.
+      EXPECT_LT(std::sqrt(squares / n) / (mean / n), 1.25 * 0.15) << to_string(measure) << " " << b;
+    }
+  }
+}
+
+TEST(Auto, MeasuresLayers) {
+  LightRequest r = automatic(0.3, AutoMeasure::kLayerRms);
+  r.automatic.layers = 4;
+  const LightMap map = compute(crown(), r);
+  EXPECT_LE(std::stod(setting(map, "measured_layer_rms.PAR")), 0.3);
+}
+
+TEST(Auto, GivesTheBestWithinATimeAndSaysWhatItIsWorth) {
+  LightRequest r = sun_and_sky(Method::kAuto);
+  r.automatic.time_s = 0.4;
+  const LightMap map = compute(crown(), r);
+  EXPECT_EQ(setting(map, "time_s"), "0.4");
+  EXPECT_EQ(setting(map, "tolerance"), "");
+  EXPECT_NE(setting(map, "chosen_method"), "");
+  EXPECT_NE(setting(map, "measured_element_rms.NIR").find('['), std::string::npos);
+  for (const std::string& note : map.provenance.notes)
+    EXPECT_EQ(note.find("not reached"), std::string::npos) << note;
+}
+
 TEST(Auto, SaysWhenTheToleranceIsOutOfReach) {
   LightRequest r = automatic(0.001);
   r.reference.max_rays_per_face = 32;
