@@ -10,7 +10,7 @@ namespace sunfleck {
 namespace {
 
 // A correction must lower the RMS on probes it has not seen by more than this share.
-constexpr double kWorthCorrecting = 0.02;
+constexpr double kWorthCorrecting = 0.01;
 
 std::vector<LightParts> truths(const ProbeSet& probes, std::size_t band) {
   std::vector<LightParts> parts;

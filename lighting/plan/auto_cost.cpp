@@ -82,16 +82,17 @@ double machine_slowness() {
   return sum > 0.0 ? std::clamp(took_s / kNominal_s, 0.1, 100.0) : 1.0;
 }
 
-std::vector<GridOptions> grid_rungs(const SceneSizes& s, const GridOptions& asked, double convergence) {
+std::vector<GridOptions> grid_rungs(const SceneSizes& s, const GridOptions& asked, double tolerance) {
   const GridOptions usual;
   if (asked.directions != usual.directions || asked.cell_m != usual.cell_m ||
       asked.convergence != usual.convergence || asked.max_iterations != usual.max_iterations)
     return {asked};
-  // On large scenes the coarsest seldom does and costs as much as anything small altogether.
-  constexpr double kLarge = 200000;
+  constexpr double kLarge = 200000, kTight = 0.12;
+  const bool fine_only = s.elements >= kLarge && tolerance > 0.0 && tolerance <= kTight;
+  const double convergence = tolerance > 0.0 ? 0.1 * std::min(0.2, tolerance) : 0.01;
   std::vector<GridOptions> rungs;
   for (const auto& [directions, sides] : {std::pair{14, 3.0}, {26, 3.0}, {26, 2.0}})
-    if (directions > 14 || s.elements < kLarge)
+    if (!fine_only || sides < 3.0)
       rungs.push_back(
           {.directions = directions, .cell_m = sides * s.leaf_side_m, .convergence = convergence});
   return rungs;

@@ -32,14 +32,8 @@ double reference_s(const SceneSizes& sizes, int rays, std::size_t bands, bool su
 // Time this machine takes for what takes the reference machine one second.
 double machine_slowness();
 
-// A smooth method with its knobs, and how exactly the sun is drawn over it (relative error of direct light;
-// 0: not at all).
-struct Rung {
-  std::string name;
-  GridOptions grid;
-  double sun_error = 0;
-};
-// Of `grid`, coarse to fine; the request's own grid alone where its knobs were set.
-std::vector<GridOptions> grid_rungs(const SceneSizes& sizes, const GridOptions& asked, double convergence);
+// Of `grid`, coarse to fine; the request's own grid alone where its knobs were set. For `tolerance` (0: by
+// time) those are left out that seldom reach it and cost much where they do not.
+std::vector<GridOptions> grid_rungs(const SceneSizes& sizes, const GridOptions& asked, double tolerance);
 
 }  // namespace sunfleck

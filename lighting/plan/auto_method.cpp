@@ -19,7 +19,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // Share of the tolerance that drawing the sun may use up: finer costs more than the rest can win back.
-constexpr double kSunShare = 0.4;
+constexpr double kSunShare = 0.35;
 // For sums, where errors of single elements average out.
 constexpr double kSunErrorOfSums = 0.2;
 
@@ -40,7 +40,7 @@ class Ladder {
   LightMap climb() {
     if (options_.time_s) return best_in_time();
     probe();
-    for (const GridOptions& grid : grid_rungs(sizes_, request_.grid, 0.1 * std::min(0.2, options_.aim())))
+    for (const GridOptions& grid : grid_rungs(sizes_, request_.grid, options_.aim()))
       if (try_grid(grid)) return finish();
     try_reference();
     return finish();
@@ -177,7 +177,7 @@ class Ladder {
       if (predicted_s(reference_s(sizes_, rays, bands, sun)) > left_s) continue;
       if (run_reference_of(rays)) return;
     }
-    std::vector<GridOptions> grids = grid_rungs(sizes_, request_.grid, 0.01);
+    std::vector<GridOptions> grids = grid_rungs(sizes_, request_.grid, 0.0);
     for (std::size_t g = grids.size(); g-- > 0;)
       for (const double sun_error : {0.05, 0.1}) {
         if (!sun) break;

@@ -173,7 +173,7 @@ double predicted_seconds(const LightRequest& request, const SceneSizes& sizes, s
       return grid_s(sizes, request.grid, bands);
     case Method::kAuto: {
       if (request.automatic.time_s) return *request.automatic.time_s;
-      const auto rungs = grid_rungs(sizes, request.grid, 0.01);
+      const auto rungs = grid_rungs(sizes, request.grid, request.automatic.aim());
       return ray_scene_s(sizes) + probes_s(request.probes.value_or(ProbePlan{}), bands, false) +
              grid_s(sizes, rungs.front(), bands) + (sun ? sun_drawing_s(sizes, 0.08) : 0.0);
     }
