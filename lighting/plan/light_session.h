@@ -4,6 +4,7 @@
 //   ray scene, receivers        nothing but the forest (and whether there is ground)
 //   hit matrix of `reference`   seed, rays, sky model
 //   sun rays of `reference`     seed, rays, sun direction and disc
+//   leaf-area grid of `grid`    directions, cells; its sun: direction; its sky: model
 //   sun exposure of `auto`      sun direction and disc, precision, seed
 //
 // Answers have the same bytes as without a session. Add what a method prepares in run_method.cpp: one

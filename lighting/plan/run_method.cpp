@@ -1,5 +1,6 @@
 #include "lighting/plan/run_method.h"
 
+#include "lighting/plan/kept_grid.h"
 #include "sim/base/contract.h"
 
 namespace sunfleck {
@@ -39,7 +40,7 @@ LightMap run_method(const LightScene& scene, const OpticsTable& optics, const Il
       return envelope_light_map(forest, optics, light, envelope_options(request, EnvelopeSun::kMarched),
                                 control);
     case Method::kGrid:
-      return grid_light_map(forest, optics, light, request.grid, control);
+      return kept_grid_light_map(scene, optics, light, request.grid, control);
     case Method::kAuto:  // chooses among the others: auto_light_map()
       break;
   }

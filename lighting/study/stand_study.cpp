@@ -98,6 +98,7 @@ StandLightRequest light_request(const StandStudySpec& spec, StandSky sky) {
   request.scattering = spec.scattering;
   request.canopy_views = spec.canopy_views && !spec.sensors.empty();
   request.rays_per_cell = spec.rays_per_cell;
+  request.tree_relative_error = spec.tree_relative_error;
   request.sensor_sun_rays = spec.sensor_sun_rays;
   request.sensor_sky_rays = spec.sensor_sky_rays;
   request.seed = spec.seed;
@@ -134,12 +135,13 @@ void study_by_rays(const Forest& forest, const SkyWeights& weights, const RunCon
 void study_by_boxes(const Forest& forest, const SkyWeights& weights, const RunControl& control,
                     StandStudy& study) {
   const StandStudySpec& spec = study.spec;
-  WorldLightOptions options;
+  LargeStandOptions options;
   options.voxel_m = std::max(0.1, 0.5 * spec.ground_cell_m);
   options.seed = spec.seed;
   const StageTimer timer(study.provenance, "light through boxes");
-  const WorldPrepared prepared = prepare_world_light(forest, options, control);
-  study.world = world_light(forest, prepared, stand_sky(weights, parts_of(weights, spec.intervals)), control);
+  const LargeStandPrepared prepared = prepare_large_stand(forest, options, control);
+  study.world =
+      large_stand_light(forest, prepared, stand_sky(weights, parts_of(weights, spec.intervals)), control);
   if (!spec.sensors.empty())
     study.provenance.notes.push_back("sensors need engine = \"rays\": none are in this answer");
 }
