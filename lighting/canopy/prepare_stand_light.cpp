@@ -89,11 +89,11 @@ DirectionalBasis prepare_stand_light(const StandScene& scene, const OpticsTable&
     basis.from_sky = drop_light(scene, optics, basis.sky.sky, from_sky, control);
   };
   if (request.tree_relative_error > 0.0 && total > 0.0) {
-    // A quarter of the rays tells how many it takes.
-    rays *= 0.25;
+    // A tenth of the rays tells how many it takes.
+    rays *= 0.1;
     drop(false);
     const double off = tree_error(basis) / request.tree_relative_error;
-    rays *= std::clamp(off * off, 4.0, 400.0);
+    rays *= std::clamp(off * off, 10.0, 1000.0);
   }
   drop(request.scattering);
   const auto potential = [&](const LightSource& source, const std::vector<double>& energy,

@@ -36,7 +36,7 @@ struct StandLightRequest {
   // More rays than that, up to 100 times, until the standard error of 95 in 100 trees' intercepted light over
   // all intervals is below this, relative: 0.025 keeps 95 in 100 trees within about 5 %. 0: exactly
   // rays_per_cell.
-  double tree_relative_error = 0;
+  double tree_relative_error = 0.05;
   int potential_rays = 1000;  // per tree alone over all directions together, shared out alike, 1 .. 1e7
   int sensor_sun_rays = 4, sensor_sky_rays = 16;  // per sensor and direction, 1 .. 100,000
   std::uint64_t seed = 1;

@@ -1,5 +1,5 @@
 // Measured stands. canopy_stands [cloture20] [leaves per tree]: a season at the measured sensors.
-// canopy_stands <stand> <leaves per tree> <rays per cell, or 0 for a target of 2.5 %>: absorbed PAR per tree
+// canopy_stands <stand> <leaves per tree> <rays per cell, or 0 for the default>: absorbed PAR per tree
 // against the reference.
 #include <algorithm>
 #include <chrono>
@@ -139,10 +139,10 @@ void against_reference(const std::string& name, int leaves, double rays_per_cell
   request.sky.sun.strength.add(0, 300.0 / to_sun.z);
   request.sky.sun.strength.end_row();
   request.sky.intervals = {"noon"};
-  if (rays_per_cell > 0.0)
+  if (rays_per_cell > 0.0) {
     request.rays_per_cell = rays_per_cell;
-  else
-    request.tree_relative_error = 0.025;
+    request.tree_relative_error = 0;
+  }
   const OpticsTable optics(stand.forest, {{"PAR"}, {0.1}, {}});
   const StandLight light = stand_light(scene, optics, request, {});
   lap.print("stand light");

@@ -34,6 +34,7 @@ StandLight light_of(const Forest& forest, StandSky sky, double rays) {
   request.sky = std::move(sky);
   request.rays_per_cell = rays / static_cast<double>(scene.ground().count());
   request.potential = false;
+  request.tree_relative_error = 0;
   return stand_light(scene, optics_of(forest, 0.0), request, {});
 }
 
@@ -126,6 +127,7 @@ TEST_P(ConeGap, OpennessAndSiteFactors) {
   request.sensor_sky_rays = 64;
   request.rays_per_cell = 1;
   request.potential = false;
+  request.tree_relative_error = 0;
   const StandLight light = stand_light(scene, optics_of(forest, 0.0), request, {});
   const double allowed = c["tolerance"]["abs"];
   EXPECT_NEAR(light.canopy[0].openness, c["expected"]["canopy_openness_solid_angle"].get<double>(), allowed);

@@ -20,6 +20,7 @@ StandLightRequest request(double rays_per_cell) {
   r.sensors = {LightSensor{"a", {0.9, 1.6}, 0.3, {0, 0, 1}},
                LightSensor{"tilted", {1.5, 0.3}, 0.5, {1, 0, 1}}};
   r.rays_per_cell = rays_per_cell;
+  r.tree_relative_error = 0;
   r.potential_rays = 20'000;
   return r;
 }
@@ -142,7 +143,7 @@ TEST(StandLight, TakesAsManyRaysAsTheErrorAskedForNeeds) {
   for (std::size_t t = 0; t < 3; ++t) {
     EXPECT_GT(coarse.trees.intercepted.error_at(0, t), 0.02f * coarse.trees.intercepted.at(0, t));
     // The pilot's own estimate is rough.
-    EXPECT_LT(fine.trees.intercepted.error_at(0, t), 0.013f * fine.trees.intercepted.at(0, t));
+    EXPECT_LT(fine.trees.intercepted.error_at(0, t), 0.015f * fine.trees.intercepted.at(0, t));
   }
 }
 
