@@ -29,6 +29,22 @@ std::vector<MethodStep> grid_steps() {
   return steps;
 }
 
+std::vector<MethodStep> links_steps() {
+  std::vector<MethodStep> steps;
+  for (const int links : {16, 32, 64})
+    steps.push_back(step(Method::kLinks, std::to_string(links) + " links",
+                         [links](LightRequest& r) { r.links.links_per_face = links; }));
+  return steps;
+}
+
+std::vector<MethodStep> envelope_steps() {
+  std::vector<MethodStep> steps;
+  for (const int directions : {8, 14, 26})
+    steps.push_back(step(Method::kEnvelopeFull, std::to_string(directions) + " directions",
+                         [directions](LightRequest& r) { r.envelope_full.directions = directions; }));
+  return steps;
+}
+
 std::vector<MethodStep> auto_steps() {
   std::vector<MethodStep> steps;
   for (const int percent : {20, 10, 5})
@@ -45,6 +61,10 @@ std::vector<MethodStep> method_ladder(Method method) {
       return reference_steps();
     case Method::kGrid:
       return grid_steps();
+    case Method::kLinks:
+      return links_steps();
+    case Method::kEnvelopeFull:
+      return envelope_steps();
     case Method::kAuto:
       return auto_steps();
     default:

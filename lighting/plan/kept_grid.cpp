@@ -60,8 +60,8 @@ LightMap kept_grid_light_map(const LightScene& scene, const OpticsTable& optics,
     const bool none = !any(light, &BandLight::diffuse_horizontal_w_m2);
     const std::uint64_t bytes = grid_suitability(scene.forest, options).bytes / 2;
     sources.sky =
-        kept_sources(scene, grid_key("grid sky", options).add("sky", none ? "none" : sky_key(light)),
-                     light, &BandLight::beam_normal_w_m2, *prepared, bytes, control)
+        kept_sources(scene, grid_key("grid sky", options).add("sky", none ? "none" : sky_key(light)), light,
+                     &BandLight::beam_normal_w_m2, *prepared, bytes, control)
             .sky;
   }
   LightMap map = grid_light_map(scene.forest, optics, light, options, *prepared, sources, control);

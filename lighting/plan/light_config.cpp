@@ -119,6 +119,73 @@ GridOptions read_grid(const ConfigTable& table) {
   return o;
 }
 
+template <class Enum>
+Enum one_of(const ConfigTable& table, const char* key, Enum fallback, const std::vector<Enum>& values) {
+  std::vector<std::string> names;
+  for (const Enum value : values) names.push_back(to_string(value));
+  const std::string chosen = table.choice_or(key, to_string(fallback), names);
+  for (const Enum value : values)
+    if (to_string(value) == chosen) return value;
+  return fallback;
+}
+
+EnvelopeFullOptions read_envelope_full(const ConfigTable& table) {
+  EnvelopeFullOptions o;
+  o.directions = static_cast<int>(table.integer_or("directions", o.directions, {8, 50}));
+  o.sun = one_of(table, "sun", o.sun, {EnvelopeSun::kMarched, EnvelopeSun::kPublished});
+  o.angles = one_of(table, "angles", o.angles, {EnvelopeAngles::kMeasured, EnvelopeAngles::kSpherical});
+  o.bounces = one_of(table, "bounces", o.bounces,
+                     {EnvelopeBounces::kAll, EnvelopeBounces::kOnce, EnvelopeBounces::kSunOnce});
+  o.ground = one_of(table, "ground", o.ground, {EnvelopeGround::kShaded, EnvelopeGround::kFullyLit});
+  o.weights = one_of(table, "weights", o.weights, {EnvelopeWeights::kCosine, EnvelopeWeights::kPlain});
+  o.own_leaf = one_of(table, "own_leaf", o.own_leaf, {EnvelopeOwnLeaf::kRemoved, EnvelopeOwnLeaf::kKept});
+  o.border = one_of(table, "border", o.border,
+                    {EnvelopeBorder::kByScene, EnvelopeBorder::kRound, EnvelopeBorder::kLevel});
+  o.cell_m = table.number_or("cell_m", 0, {0, 1000});
+  check(o);
+  return o;
+}
+
+LinksOptions read_links(const ConfigTable& table) {
+  LinksOptions o;
+  o.seed = static_cast<std::uint64_t>(table.integer_or("seed", 1, {0, 9e15}));
+  o.links_per_face = static_cast<int>(table.integer_or("links_per_face", o.links_per_face, {16, 256}));
+  o.convergence = table.number_or("convergence", o.convergence, {1e-9, 1});
+  o.ground_cell_m = table.number_or("ground_cell_m", 0, {0, 1e5});
+  return o;
+}
+
+WorldOptions read_world(const ConfigTable& table) {
+  WorldOptions o;
+  o.directions = static_cast<int>(table.integer_or("directions", o.directions, {8, 26}));
+  o.cell_m = table.number_or("cell_m", o.cell_m, {0, 1000});
+  return o;
+}
+
+// Trees by their numbers, or [] for all.
+Selection read_selection(const ConfigTable& table) {
+  Selection selection;
+  for (const double id : table.numbers("trees", {0, 4294967295.0})) {
+    const TreeId tree{static_cast<std::uint32_t>(id)};
+    if (static_cast<double>(tree.value) != id)
+      throw_invalid(table.where("trees"), "holds what is no whole number", "numbers of trees");
+    selection.trees.push_back(tree);
+  }
+  return selection;
+}
+
+SppMarchedOptions read_marched(const ConfigTable& table) {
+  SppMarchedOptions o;
+  o.phase = table.choice_or("phase", "leaf_angles", {"leaf_angles", "isotropic"}) == "isotropic"
+                ? SppPhase::kIsotropic
+                : SppPhase::kLeafAngles;
+  o.paths = table.choice_or("paths", "true_boundary", {"true_boundary", "slab"}) == "slab"
+                ? SppPaths::kSlab
+                : SppPaths::kTrueBoundary;
+  o.cell_m = table.number_or("cell_m", 0, {0, 1000});
+  return o;
+}
+
 ProbePlan read_probes(const ConfigTable& table) {
   constexpr Range kRays{2, 65536};
   ProbePlan p;
@@ -170,6 +237,11 @@ LightRequest read_light_request(const ConfigTable& table) {
   if (const auto knobs = table.table_if("spp")) request.spp = read_spp(*knobs);
   if (const auto knobs = table.table_if("envelope"))
     request.envelope.cell_m = knobs->number_or("cell_m", 0, {0, 1000});
+  if (const auto knobs = table.table_if("spp_marched")) request.spp.marched = read_marched(*knobs);
+  if (const auto knobs = table.table_if("envelope_full")) request.envelope_full = read_envelope_full(*knobs);
+  if (const auto knobs = table.table_if("links")) request.links = read_links(*knobs);
+  if (const auto knobs = table.table_if("world")) request.world = read_world(*knobs);
+  if (table.has("trees")) request.selection = read_selection(table);
   if (const auto knobs = table.table_if("grid")) request.grid = read_grid(*knobs);
   if (const auto knobs = table.table_if("auto")) request.automatic = read_auto(*knobs);
   if (const auto knobs = table.table_if("probes")) request.probes = read_probes(*knobs);

@@ -15,9 +15,14 @@ const std::vector<std::pair<Method, std::string>>& methods() {
       {Method::kSingleScattering, "single_scattering"},
       {Method::kSpp, "spp"},
       {Method::kSppG, "spp_g"},
+      {Method::kSppH, "spp_h"},
+      {Method::kSppMarched, "spp_marched"},
       {Method::kEnvelope, "envelope"},
       {Method::kEnvelopeMarched, "envelope_marched"},
+      {Method::kEnvelopeFull, "envelope_full"},
       {Method::kGrid, "grid"},
+      {Method::kLinks, "links"},
+      {Method::kWorld, "world"},
       {Method::kAuto, "auto"}};
   return table;
 }

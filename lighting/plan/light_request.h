@@ -8,6 +8,8 @@
 
 #include "lighting/base/light_map.h"
 #include "lighting/envelope/envelope_estimator.h"
+#include "lighting/envelope/envelope_options.h"
+#include "lighting/links/links_estimator.h"
 #include "lighting/optics/optics.h"
 #include "lighting/plan/auto_options.h"
 #include "lighting/plan/selection.h"
@@ -15,15 +17,31 @@
 #include "lighting/slab/spp_estimators.h"
 #include "lighting/trace/reference.h"
 #include "lighting/transport/grid_estimator.h"
+#include "lighting/transport/world_light.h"
 #include "sim/base/run_control.h"
 #include "sim/forest/forest.h"
 
 namespace sunfleck {
 
-enum class Method { kReference, kSingleScattering, kSpp, kSppG, kEnvelope, kEnvelopeMarched, kGrid, kAuto };
+enum class Method {
+  kReference,
+  kSingleScattering,
+  kSpp,
+  kSppG,
+  kSppH,
+  kSppMarched,
+  kEnvelope,
+  kEnvelopeMarched,
+  kEnvelopeFull,
+  kGrid,
+  kLinks,
+  kWorld,
+  kAuto
+};
 
-std::string to_string(Method method);  // reference, single_scattering, spp, spp_g, envelope,
-                                       // envelope_marched, grid, auto
+// reference, single_scattering, spp, spp_g, spp_h, spp_marched, envelope, envelope_marched, envelope_full,
+// grid, links, world, auto
+std::string to_string(Method method);
 Method method_from_string(const std::string& name, const std::string& where);  // throws, listing the names
 const std::vector<std::string>& method_names();
 
@@ -38,7 +56,10 @@ struct LightRequest {
   ReferenceOptions reference;
   SppOptions spp;
   EnvelopeOptions envelope;
+  EnvelopeFullOptions envelope_full;
   GridOptions grid;
+  LinksOptions links;
+  WorldOptions world;
   AutoOptions automatic;
   Skipping skip = Skipping::kAuto;
   Selection selection;  // the answer holds only these trees, numbered as in selected_forest()

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <atomic>
+#include <numeric>
 #include <thread>
 #include <utility>
 
 #include "lighting/base/summaries.h"
 #include "lighting/plan/auto_method.h"
+#include "lighting/plan/kept_methods.h"
 #include "lighting/plan/run_method.h"
 #include "sim/base/contract.h"
 #include "sim/base/error.h"
@@ -15,6 +17,8 @@
 
 namespace sunfleck {
 namespace {
+
+constexpr std::size_t kMostWorldElements = 50'000'000;  // 1.4 GB per band
 
 const Forest& with_leaves(const Forest& forest) {
   validate(forest);
@@ -90,8 +94,39 @@ LightSession::~LightSession() { cache_->forget(store_.prefix); }
 
 Plan LightSession::plan(const LightRequest& request) const { return make_plan(forest_, index_, request); }
 
+// Only the trees asked for are ever touched leaf by leaf.
+LightMap LightSession::compute_world(const LightRequest& request, const CostOptions& cost,
+                                     const RunControl& control) const {
+  const Plan plan = this->plan(request);
+  const Forest chosen =
+      request.selection.everything() ? forest_ : selected_forest(forest_, request.selection);
+  std::vector<std::uint32_t> instances(forest_.instances.size());
+  std::iota(instances.begin(), instances.end(), 0u);
+  if (!request.selection.everything()) instances = selected_instances(forest_, request.selection);
+  const ForestIndex index(chosen);
+  if (index.element_count() > kMostWorldElements)
+    throw Error(ErrorKind::kLimitExceeded, "selection",
+                std::to_string(index.element_count()) + " leaves are asked for", "fewer trees at once");
+  const OpticsTable optics(forest_, request.optics), seen(forest_, plan.optics);
+  const LightScene scene = this->scene(cost.threads);
+  LightMap map;
+  with_threads(cost.threads, [&] {
+    map = kept_world_light_map(scene, seen, plan.light, request.world, instances, control);
+    summarize(chosen, index, OpticsTable(chosen, request.optics), map);
+    if (request.probes && request.selection.everything())
+      add_error_bars(scene, optics, plan.light, *request.probes, request.reference.ground, map, control);
+    sign(map, scene, request, skip_notes(plan, map));
+  });
+  map.provenance.settings.emplace_back("selection", std::to_string(instances.size()) + " of " +
+                                                        std::to_string(forest_.instances.size()) + " trees");
+  if (const std::string violation = find_violation(map, index); !violation.empty())
+    throw ContractViolation("the result of world holds " + violation);
+  return map;
+}
+
 LightMap LightSession::compute(const LightRequest& request, const CostOptions& cost,
                                const RunControl& control) const {
+  if (request.method == Method::kWorld) return compute_world(request, cost, control);
   const Plan plan = this->plan(request);
   const OpticsTable optics(forest_, request.optics), seen(forest_, plan.optics);
   const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));

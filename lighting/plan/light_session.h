@@ -4,6 +4,7 @@
 //   ray scene, receivers        nothing but the forest (and whether there is ground)
 //   hit matrix of `reference`   seed, rays, sky model
 //   sun rays of `reference`     seed, rays, sun direction and disc
+//   depths, sectors, links, world grid of spp.., envelope_full, links, world: their own knobs
 //   leaf-area grid of `grid`    directions, cells; its sun: direction; its sky: model
 //   sun exposure of `auto`      sun direction and disc, precision, seed
 //
@@ -46,6 +47,8 @@ class LightSession {
   PreparedCache::Stats cached() const { return cache_->stats(); }
 
  private:
+  LightMap compute_world(const LightRequest& request, const CostOptions& cost,
+                         const RunControl& control) const;
   LightMap selected(LightMap whole, const LightRequest& request) const;
   LightScene scene(int threads) const { return {forest_, index_, forest_hash_, store_, threads}; }
 

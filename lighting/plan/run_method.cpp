@@ -1,6 +1,7 @@
 #include "lighting/plan/run_method.h"
 
 #include "lighting/plan/kept_grid.h"
+#include "lighting/plan/kept_methods.h"
 #include "sim/base/contract.h"
 
 namespace sunfleck {
@@ -27,12 +28,20 @@ LightMap run_method(const LightScene& scene, const OpticsTable& optics, const Il
     case Method::kReference:
       return reference_light_map(forest, optics, light, request.reference, control, scene.store);
     case Method::kSingleScattering:
-      return spp_light_map(forest, optics, light, spp_options(request, SppVariant::kSingleScattering),
-                           control);
+      return kept_spp_light_map(scene, optics, light, spp_options(request, SppVariant::kSingleScattering),
+                                control);
     case Method::kSpp:
-      return spp_light_map(forest, optics, light, spp_options(request, SppVariant::kSpp), control);
+      return kept_spp_light_map(scene, optics, light, spp_options(request, SppVariant::kSpp), control);
     case Method::kSppG:
-      return spp_light_map(forest, optics, light, spp_options(request, SppVariant::kSppG), control);
+      return kept_spp_light_map(scene, optics, light, spp_options(request, SppVariant::kSppG), control);
+    case Method::kSppH:
+      return kept_spp_light_map(scene, optics, light, spp_options(request, SppVariant::kSppH), control);
+    case Method::kSppMarched:
+      return kept_spp_light_map(scene, optics, light, spp_options(request, SppVariant::kSppMarched), control);
+    case Method::kEnvelopeFull:
+      return kept_envelope_light_map(scene, optics, light, request.envelope_full, control);
+    case Method::kLinks:
+      return kept_links_light_map(scene, optics, light, request.links, control);
     case Method::kEnvelope:
       return envelope_light_map(forest, optics, light, envelope_options(request, EnvelopeSun::kPublished),
                                 control);
@@ -41,7 +50,8 @@ LightMap run_method(const LightScene& scene, const OpticsTable& optics, const Il
                                 control);
     case Method::kGrid:
       return kept_grid_light_map(scene, optics, light, request.grid, control);
-    case Method::kAuto:  // chooses among the others: auto_light_map()
+    case Method::kWorld:  // knows which trees are asked for: LightSession
+    case Method::kAuto:   // chooses among the others: auto_light_map()
       break;
   }
   throw ContractViolation("not a method of its own");

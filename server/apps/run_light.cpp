@@ -19,8 +19,11 @@ void run_light(const LightOptions& o, const RunControl& control) {
   if (!scene.light) throw_invalid(o.scene.string(), "has no [light] table", "say which sun, sky and bands");
   LightRequest request = *scene.light;
   if (!o.method.empty()) request.method = method_from_string(o.method, "--method");
-  const Forest forest = load_forest(o.forest);
-  const LightMap map = compute_light_map(forest, request, {.threads = o.threads}, control);
+  const Forest whole = load_forest(o.forest);
+  const LightMap map = compute_light_map(whole, request, {.threads = o.threads}, control);
+  // What the answer's elements are numbered by: the trees asked for.
+  const Forest forest =
+      request.selection.everything() ? whole : selected_forest(whole, request.selection);
   if (!o.netcdf.empty()) save_netcdf(map, forest, o.netcdf);
   if (!o.element_csv.empty()) save_element_csv(map, forest, o.element_csv);
   if (!o.tree_csv.empty()) save_tree_csv(map, forest, o.tree_csv);

@@ -22,6 +22,16 @@ v1::Method message_method(Method method) {
       return v1::METHOD_ENVELOPE_MARCHED;
     case Method::kGrid:
       return v1::METHOD_GRID;
+    case Method::kSppH:
+      return v1::METHOD_SPP_H;
+    case Method::kSppMarched:
+      return v1::METHOD_SPP_MARCHED;
+    case Method::kEnvelopeFull:
+      return v1::METHOD_ENVELOPE_FULL;
+    case Method::kLinks:
+      return v1::METHOD_LINKS;
+    case Method::kWorld:
+      return v1::METHOD_WORLD;
     case Method::kAuto:
       return v1::METHOD_AUTO;
   }

@@ -27,14 +27,24 @@ Method method_from_message(v1::Method method, const std::string& field, Violatio
       return Method::kEnvelopeMarched;
     case v1::METHOD_GRID:
       return Method::kGrid;
+    case v1::METHOD_SPP_H:
+      return Method::kSppH;
+    case v1::METHOD_SPP_MARCHED:
+      return Method::kSppMarched;
+    case v1::METHOD_ENVELOPE_FULL:
+      return Method::kEnvelopeFull;
+    case v1::METHOD_LINKS:
+      return Method::kLinks;
+    case v1::METHOD_WORLD:
+      return Method::kWorld;
     case v1::METHOD_AUTO:
       return Method::kAuto;
     default:
       break;
   }
   violations.add(field, method == v1::METHOD_UNSPECIFIED
-                            ? "must be given: reference, single_scattering, spp, spp_g, envelope, "
-                              "envelope_marched, grid or auto"
+                            ? "must be given: reference, single_scattering, spp, spp_g, spp_h, spp_marched, "
+                              "envelope, envelope_marched, envelope_full, grid, links, world or auto"
                             : "unknown method " + std::to_string(method));
   return Method::kReference;
 }

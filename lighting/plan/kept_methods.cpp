@@ -1,0 +1,198 @@
+#include "lighting/plan/kept_methods.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "lighting/base/summaries.h"
+#include "lighting/envelope/envelope_full.h"
+#include "lighting/plan/auto_direct.h"
+#include "sim/base/parallel.h"
+
+namespace sunfleck {
+namespace {
+
+void add_times(LightMap& map, const std::vector<StageTime>& before) {
+  map.provenance.times.insert(map.provenance.times.begin(), before.begin(), before.end());
+}
+
+PreparedKey spp_key(const SppOptions& o) {
+  return PreparedKey("spp")
+      .add("variant", static_cast<int>(o.variant))
+      .add("sample_directions", o.sample_directions)
+      .add("map_resolution", o.map_resolution)
+      .add("grid_resolution", o.grid_resolution)
+      .add("phase", static_cast<int>(o.marched.phase))
+      .add("paths", static_cast<int>(o.marched.paths))
+      .add("cell_m", o.marched.cell_m);
+}
+
+PreparedKey envelope_key(const EnvelopeFullOptions& o) {
+  return PreparedKey("envelope_full")
+      .add("directions", o.directions)
+      .add("sun", static_cast<int>(o.sun))
+      .add("angles", static_cast<int>(o.angles))
+      .add("bounces", static_cast<int>(o.bounces))
+      .add("ground", static_cast<int>(o.ground))
+      .add("weights", static_cast<int>(o.weights))
+      .add("own_leaf", static_cast<int>(o.own_leaf))
+      .add("border", static_cast<int>(o.border))
+      .add("cell_m", o.cell_m);
+}
+
+PreparedKey links_key(std::string_view what, const LinksOptions& o) {
+  return PreparedKey(what)
+      .add("seed", o.seed)
+      .add("links_per_face", o.links_per_face)
+      .add("ground", o.ground ? 1 : 0)
+      .add("ground_cell_m", o.ground_cell_m);
+}
+
+PreparedKey world_key(const WorldOptions& o) {
+  return PreparedKey("world")
+      .add("directions", o.directions)
+      .add("cell_m", o.cell_m)
+      .add("memory", o.memory_limit_bytes);
+}
+
+constexpr int kSunRaysOfWoodAndGround = 4;
+
+// Replaces what a few rays say of leaves by what the sun sees of them.
+void draw_foliage(const LightScene& scene, const Illumination& light, const LinksOptions& options,
+                  links::DirectLight& direct, const RunControl& control) {
+  if (!light.sun_is_up()) return;
+  const auto drawn = sun_exposure(scene, light, {.ground = options.ground, .seed = options.seed}, control);
+  direct.sunlit_fraction = drawn->sunlit_fraction;
+  for (std::size_t e = 0; e < drawn->sunlit_fraction.size(); ++e) {
+    if (e % 65536 == 0) control.check();
+    const auto place = scene.index.place(e);
+    const BeamOnFaces beam = beam_on_faces(scene.forest, place.instance, place.local, light.to_sun);
+    direct.on_face[2 * e] = static_cast<float>(beam.front * drawn->sunlit_fraction[e]);
+    direct.on_face[2 * e + 1] = static_cast<float>(beam.back * drawn->sunlit_fraction[e]);
+  }
+}
+
+std::shared_ptr<const links::DirectLight> kept_links_sun(const LightScene& scene,
+                                                         const LinksPrepared& prepared,
+                                                         const Illumination& light,
+                                                         const LinksOptions& options,
+                                                         const RunControl& control) {
+  return scene.store.get<links::DirectLight>(
+      links_key("links sun", options)
+          .add("to_sun", light.to_sun)
+          .add("half_angle", light.sun_half_angle_rad)
+          .add("sun_rays", options.sun_rays_per_element),
+      control,
+      [&] {
+        LinksOptions few = options;
+        few.sun_rays_per_element = std::min(options.sun_rays_per_element, kSunRaysOfWoodAndGround);
+        auto direct = std::make_shared<links::DirectLight>(links_direct_light(prepared, light, few, control));
+        draw_foliage(scene, light, options, *direct, control);
+        return std::shared_ptr<const links::DirectLight>(std::move(direct));
+      },
+      [](const links::DirectLight& d) {
+        return (d.on_face.size() + d.sunlit_fraction.size()) * sizeof(float) + sizeof d;
+      });
+}
+
+}  // namespace
+
+LightMap kept_spp_light_map(const LightScene& scene, const OpticsTable& optics, const Illumination& light,
+                            const SppOptions& options, const RunControl& control) {
+  Provenance before;
+  std::shared_ptr<const SppPrepared> prepared;
+  {
+    const StageTimer timer(before, "preprocess");
+    prepared = scene.store.get<SppPrepared>(
+        spp_key(options), control,
+        [&] { return std::make_shared<const SppPrepared>(prepare_spp(scene.forest, options, control)); },
+        [&](const SppPrepared&) {  // depths of cells in all directions, and the leaf-area grid where marched
+          return 64 * static_cast<std::uint64_t>(scene.index.element_count()) +
+                 sizeof(float) * 96ull * 4096 * scene.forest.instances.size();
+        });
+  }
+  LightMap map = spp_light_map(scene.forest, optics, light, *prepared, control);
+  add_times(map, before.times);
+  return map;
+}
+
+LightMap kept_envelope_light_map(const LightScene& scene, const OpticsTable& optics,
+                                 const Illumination& light, const EnvelopeFullOptions& options,
+                                 const RunControl& control) {
+  Provenance before;
+  std::shared_ptr<const EnvelopePrepared> prepared;
+  {
+    const StageTimer timer(before, "sector depths");
+    prepared = scene.store.get<EnvelopePrepared>(
+        envelope_key(options), control,
+        [&] {
+          return std::make_shared<const EnvelopePrepared>(prepare_envelope(scene.forest, options, control));
+        },
+        [](const EnvelopePrepared& p) { return static_cast<std::uint64_t>(p.memory_bytes()); });
+  }
+  LightMap map = envelope_full_light_map(scene.forest, optics, light, *prepared, control);
+  add_times(map, before.times);
+  return map;
+}
+
+LightMap kept_links_light_map(const LightScene& scene, const OpticsTable& optics, const Illumination& light,
+                              const LinksOptions& options, const RunControl& control) {
+  Provenance before;
+  std::shared_ptr<const LinksPrepared> prepared;
+  {
+    const StageTimer timer(before, "tracing links");
+    prepared = scene.store.get<LinksPrepared>(
+        links_key("links", options), control,
+        [&] { return std::make_shared<const LinksPrepared>(prepare_links(scene.forest, options, control)); },
+        [](const LinksPrepared& p) { return p.bytes(); });
+  }
+  std::shared_ptr<const links::DirectLight> sun;
+  {
+    const StageTimer timer(before, "tracing sun");
+    sun = kept_links_sun(scene, *prepared, light, options, control);
+  }
+  LightMap map = links_light_map(scene.forest, optics, light, options, *prepared, *sun, control);
+  add_times(map, before.times);
+  return map;
+}
+
+LightMap kept_world_light_map(const LightScene& scene, const OpticsTable& optics, const Illumination& light,
+                              const WorldOptions& options, const std::vector<std::uint32_t>& instances,
+                              const RunControl& control) {
+  Provenance before;
+  std::shared_ptr<const WorldPrepared> prepared;
+  {
+    const StageTimer timer(before, "world preparation");
+    prepared = scene.store.get<WorldPrepared>(
+        world_key(options), control,
+        [&] { return std::make_shared<const WorldPrepared>(prepare_world(scene.forest, options, control)); },
+        [&](const WorldPrepared&) { return options.memory_limit_bytes; });
+  }
+  LightMap map;
+  const WorldLight world = world_light(scene.forest, optics, light, options, *prepared, control);
+  {
+    const StageTimer timer(before, "trees");
+    std::vector<LightMap> trees(instances.size());
+    const RunControl stop_only{control.stop, {}};
+    for (std::size_t k = 0; k < instances.size(); ++k) {
+      trees[k] = tree_light(scene.forest, optics, world, instances[k], options, stop_only);
+      control.report("trees", static_cast<double>(k + 1) / static_cast<double>(instances.size()));
+    }
+    map.bands.resize(world.bands.size());
+    for (std::size_t b = 0; b < map.bands.size(); ++b) map.bands[b].band = world.bands[b].band;
+    for (const LightMap& tree : trees) {
+      map.sunlit_fraction.insert(map.sunlit_fraction.end(), tree.sunlit_fraction.begin(),
+                                 tree.sunlit_fraction.end());
+      for (std::size_t b = 0; b < map.bands.size(); ++b)
+        map.bands[b].elements.insert(map.bands[b].elements.end(), tree.bands[b].elements.begin(),
+                                     tree.bands[b].elements.end());
+    }
+  }
+  map.provenance.times = before.times;
+  map.provenance.times.insert(map.provenance.times.end(), world.times.begin(), world.times.end());
+  map.provenance.notes = prepared->notes;
+  map.provenance.settings = {{"world.directions", std::to_string(options.directions)}};
+  return map;
+}
+
+}  // namespace sunfleck
