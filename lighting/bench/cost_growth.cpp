@@ -9,6 +9,7 @@
 #include "lighting/bench/error_against_time.h"
 #include "lighting/bench/stopwatch.h"
 #include "lighting/plan/auto_probe.h"
+#include "lighting/plan/light_session.h"
 #include "sim/base/error.h"
 #include "sim/base/parallel.h"
 #include "sim/forest/generated_scenes.h"
@@ -26,6 +27,8 @@ std::vector<double> counts_of(GrowthKind kind) {
       return {1, 10, 100, 1000, 10000};
     case GrowthKind::kBands:
       return {1, 2, 4, 8, 16};
+    case GrowthKind::kSuns:
+      return {1, 10, 100};
   }
   return {};
 }
@@ -66,6 +69,17 @@ Question question_of(GrowthKind kind, double count, std::uint64_t seed, const Ru
   return q;
 }
 
+// Other places of the sun along an arc; their answers are not looked at.
+void ask_other_suns(const LightSession& session, LightRequest request, int count, const GrowthPlan& plan,
+                    const RunControl& control) {
+  for (int i = 0; i < count; ++i) {
+    const double way = (i + 0.5) / count;
+    request.light.to_sun = direction_from_azimuth_zenith(
+        radians_from_degrees(90 + 180 * way), radians_from_degrees(30 + 40 * std::fabs(way - 0.5)));
+    session.compute(request, plan.cost, control);
+  }
+}
+
 GrowthRow measured(GrowthKind kind, double count, const Question& q, const MethodStep& step,
                    const GrowthPlan& plan, const RunControl& control) {
   LightRequest request = q.light;
@@ -75,7 +89,10 @@ GrowthRow measured(GrowthKind kind, double count, const Question& q, const Metho
   LightMap map;
   for (int i = 0; i < plan.repeats; ++i) {
     const Stopwatch watch;
-    map = compute_light_map(q.forest, request, plan.cost, control);
+    const LightSession session(q.forest);
+    if (kind == GrowthKind::kSuns)
+      ask_other_suns(session, request, static_cast<int>(count) - 1, plan, control);
+    map = session.compute(request, plan.cost, control);
     wall.push_back(watch.wall_s());
     cpu.push_back(watch.cpu_s());
   }
@@ -101,6 +118,8 @@ const char* axis_of(GrowthKind kind) {
       return "instances of 1,000 leaves";
     case GrowthKind::kBands:
       return "bands";
+    case GrowthKind::kSuns:
+      return "places of the sun";
   }
   return "";
 }
@@ -108,7 +127,7 @@ const char* axis_of(GrowthKind kind) {
 }  // namespace
 
 std::string to_string(GrowthKind kind) {
-  constexpr const char* kNames[] = {"leaves", "instances", "bands"};
+  constexpr const char* kNames[] = {"leaves", "instances", "bands", "suns"};
   return kNames[static_cast<int>(kind)];
 }
 
@@ -117,7 +136,9 @@ std::vector<GrowthRow> cost_growth(GrowthKind kind, const GrowthPlan& plan, cons
   std::vector<bool> too_slow(plan.steps.size(), false);
   for (const double count : counts_of(kind)) {
     const double elements = kind == GrowthKind::kInstances ? 1000 * count : count;
-    if (kind != GrowthKind::kBands && elements > static_cast<double>(plan.most_elements)) break;
+    if (kind != GrowthKind::kBands && kind != GrowthKind::kSuns &&
+        elements > static_cast<double>(plan.most_elements))
+      break;
     const Question q = question_of(kind, count, plan.seed, control);
     for (std::size_t s = 0; s < plan.steps.size(); ++s) {
       if (too_slow[s]) continue;
@@ -155,7 +176,8 @@ std::string growth_csv(const std::vector<GrowthRow>& rows, int threads, const Ma
 PlotPage growth_page(const std::vector<GrowthRow>& rows, const MachineFacts& machine) {
   PlotPage page;
   page.columns = 2;
-  for (const GrowthKind kind : {GrowthKind::kLeaves, GrowthKind::kInstances, GrowthKind::kBands}) {
+  for (const GrowthKind kind :
+       {GrowthKind::kLeaves, GrowthKind::kInstances, GrowthKind::kBands, GrowthKind::kSuns}) {
     PlotPanel panel;
     panel.title = "cost against " + to_string(kind) + " (" + machine.date_utc + ", " + machine.commit + ")";
     panel.x = {axis_of(kind), AxisScale::kLog};

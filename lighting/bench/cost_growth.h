@@ -14,9 +14,10 @@ namespace sunfleck {
 enum class GrowthKind {
   kLeaves,     // one ball of crown LAI 5, 1e3 to 1e6 leaves
   kInstances,  // 1 to 1e4 clumped crowns of 1,000 leaves in rows, periodic
-  kBands       // 1 to 16 bands of the same ball of 20,000 leaves
+  kBands,      // 1 to 16 bands of the same ball of 20,000 leaves
+  kSuns        // 1 to 100 places of the sun over the same ball, asked of one session
 };
-std::string to_string(GrowthKind kind);  // leaves, instances, bands
+std::string to_string(GrowthKind kind);  // leaves, instances, bands, suns
 
 struct GrowthRow {
   GrowthKind kind = GrowthKind::kLeaves;

@@ -54,7 +54,7 @@ struct ExportOptions {
 void run_export(const ExportOptions& options);
 
 struct BenchOptions {
-  std::string kind;  // error-vs-time, growth
+  std::string kind;  // error-vs-time, growth, stability
   std::string scenes = "quick", bands = "PAR,NIR", methods = "all";
   int reference_rays = 256;
   std::size_t most_elements = 1'000'000;  // growth
@@ -64,6 +64,7 @@ struct BenchOptions {
   std::filesystem::path csv, plot, configs;
 };
 void run_bench_errors(const BenchOptions& options, const RunControl& control);
+void run_bench_stability(const BenchOptions& options, const RunControl& control);
 void run_bench_growth(const BenchOptions& options, const RunControl& control);
 
 struct ServeOptions {

@@ -152,7 +152,10 @@ void add_bench(CLI::App& app, BenchOptions& o) {
   CLI::App* growth = bench->add_subcommand("growth", "Cost of every method as the scene grows");
   growth->add_option("--most-elements", o.most_elements, "Leave larger scenes out")->capture_default_str();
   add_bench_common(growth, o);
-  for (CLI::App* c : {errors, growth}) c->callback([&o, c] { o.kind = c->get_name(); });
+  CLI::App* stability =
+      bench->add_subcommand("stability", "Every method at the limits of physics and arithmetic");
+  stability->add_option("--csv", o.csv, "Tables to write (.csv)");
+  for (CLI::App* c : {errors, growth, stability}) c->callback([&o, c] { o.kind = c->get_name(); });
   bench->footer(
       "Examples:\n  sunfleck bench error-vs-time --scenes sphere --bands PAR\n  sunfleck bench error-vs-time "
       "--scenes all --csv errors.csv --plot errors.svg\n  sunfleck bench growth --methods grid,auto --plot "
@@ -161,6 +164,7 @@ void add_bench(CLI::App& app, BenchOptions& o) {
 
 void run_bench(const BenchOptions& o, const RunControl& control) {
   if (o.kind == "growth") return run_bench_growth(o, control);
+  if (o.kind == "stability") return run_bench_stability(o, control);
   run_bench_errors(o, control);
 }
 

@@ -5,6 +5,7 @@
 #include "lighting/bench/bench_scenes.h"
 #include "lighting/bench/benchmark_tables.h"
 #include "lighting/bench/cost_growth.h"
+#include "lighting/bench/stability.h"
 #include "server/apps/commands.h"
 #include "server/apps/outputs.h"
 #include "server/apps/scene_file.h"
@@ -124,7 +125,8 @@ void run_bench_growth(const BenchOptions& o, const RunControl& control) {
   std::printf("%-10s %9s %-19s %-15s %9s %9s  %-24s %s\n", "growing", "count", "method", "knob", "wall",
               "CPU", "bias % [95 % interval]", "RMS per element %");
   std::vector<GrowthRow> all;
-  for (const GrowthKind kind : {GrowthKind::kLeaves, GrowthKind::kInstances, GrowthKind::kBands}) {
+  for (const GrowthKind kind :
+       {GrowthKind::kLeaves, GrowthKind::kInstances, GrowthKind::kBands, GrowthKind::kSuns}) {
     const auto rows = cost_growth(kind, plan, control);
     finish_progress();
     for (const GrowthRow& r : rows)
@@ -143,6 +145,17 @@ void run_bench_growth(const BenchOptions& o, const RunControl& control) {
     all.insert(all.end(), rows.begin(), rows.end());
   }
   write_outputs(o, growth_csv(all, o.threads, machine), growth_page(all, machine));
+}
+
+void run_bench_stability(const BenchOptions& o, const RunControl& control) {
+  if (!o.csv.empty()) check_outputs("bench stability", {{"--csv", o.csv, ".csv"}});
+  const std::vector<SceneStability> scenes = run_stability(control);
+  finish_progress();
+  const std::vector<StabilityRow> forms = closed_form_rows();
+  std::fputs(stability_table(scenes, forms).c_str(), stdout);
+  if (o.csv.empty()) return;
+  write_whole_file(o.csv, stability_csv(scenes) + "\n" + stability_csv(forms));
+  std::printf("wrote    %s\n", o.csv.c_str());
 }
 
 }  // namespace sunfleck

@@ -31,6 +31,9 @@ const std::string& required_scene_name(const ClientOptions& o) {
 LightRequest required_light(const ClientOptions& o, const SceneFile& scene) {
   if (!scene.light) throw_invalid(o.scene.string(), "has no [light] table", "say which sun, sky and bands");
   LightRequest request = *scene.light;
+  if (!request.selection.everything())
+    throw_invalid(o.scene.string(), "asks for some trees only, which the service cannot do",
+                  "leave light.trees out, or use `sunfleck light`");
   if (!o.method.empty()) request.method = method_from_string(o.method, "--method");
   return request;
 }

@@ -22,8 +22,7 @@ void run_light(const LightOptions& o, const RunControl& control) {
   const Forest whole = load_forest(o.forest);
   const LightMap map = compute_light_map(whole, request, {.threads = o.threads}, control);
   // What the answer's elements are numbered by: the trees asked for.
-  const Forest forest =
-      request.selection.everything() ? whole : selected_forest(whole, request.selection);
+  const Forest forest = request.selection.everything() ? whole : selected_forest(whole, request.selection);
   if (!o.netcdf.empty()) save_netcdf(map, forest, o.netcdf);
   if (!o.element_csv.empty()) save_element_csv(map, forest, o.element_csv);
   if (!o.tree_csv.empty()) save_tree_csv(map, forest, o.tree_csv);
