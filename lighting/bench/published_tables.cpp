@@ -16,18 +16,19 @@ std::string quoted(const std::string& text) {
   return out + "\"";
 }
 
-// Two digits where there are that many before the comma, else two after leading zeros: 533, 25, 3.9, 0.062.
-std::string number(double value) {
+// Two digits: 533, 25, 3.9, 0.062; of percentages none behind the first decimal.
+std::string number(double value, const std::string& unit) {
   char text[40];
   const double size = std::abs(value);
-  const int decimals = size >= 10 || size == 0 ? 0 : size >= 0.1 ? 1 : size >= 0.01 ? 3 : 4;
+  int decimals = size >= 10 ? 0 : 1;
+  if (unit != "%" && size < 1) decimals = size >= 0.1 ? 2 : size >= 0.01 ? 3 : 4;
   std::snprintf(text, sizeof text, "%.*f", decimals, value);
   return text;
 }
 
 std::string cell(const PublishedRow& row) {
-  return row.column + " " + number(row.ours) + (row.published ? " (" + number(*row.published) + ")" : "") +
-         " " + row.unit;
+  return row.column + " " + number(row.ours, row.unit) +
+         (row.published ? " (" + number(*row.published, row.unit) + ")" : "") + " " + row.unit;
 }
 
 // Words of a paragraph in lines of at most 100 characters.

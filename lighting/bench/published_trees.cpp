@@ -99,13 +99,15 @@ PublishedTable tree_table(const PublishedPlan& plan, const RunControl& control) 
   PublishedTable table{
       "table 3",
       "[SPP] Table 3: trees, leaf albedo .95, sun overhead",
-      "[SPP] Eq. 30 read as sqrt(sum (<L> - <L0>)^2 / sum <L0>^2) over classes of whole leaf layers before "
-      "and "
-      "in all along the sun, unweighted; L: light of both faces, direct sun included; truth: traced. depth: "
-      "mean leaf layers along the diameter of the crown, which has 3,000 to 6,000 square leaves of random "
-      "angles on no ground. grid is ours and not in the paper",
+      "[SPP] Eq. 30 read as sqrt(sum (<L> - <L0>)^2 / sum <L0>^2) over classes of whole leaf layers, those "
+      "before and those in all along the sun, unweighted; L: light of both faces, direct sun included; "
+      "truth: "
+      "traced. depth: mean leaf layers along the diameter of an even crown of this leaf area; 3,000 to 6,000 "
+      "square leaves of random angles, no ground; side by side: 2.1 radii apart. grid is ours and not in the "
+      "paper",
       "the tree (18,000 triangles, its density, branches, whether it stands on ground), the classes, and "
-      "their weights. No density makes the paper's order (spp worst, spp_g best) appear with classes read so",
+      "their weights. Read so, single scattering comes out worst in all our crowns, where the paper has it "
+      "between spp_g and spp",
       {}};
   for (const TreeScene& scene : tree_scenes(plan)) add_scene(scene, plan, control, table.rows);
   return table;

@@ -73,13 +73,14 @@ SlabScore score(double error, const Squares& squares) {
 
 }  // namespace
 
-SlabErrors slab_errors(const SlabProblem& problem, double sphere_bins, const RunControl& control) {
+SlabErrors slab_errors(const SlabProblem& problem, const SlabMetric& metric, const RunControl& control) {
   const SlabField truth = solve_slab(problem, control);
   Squares squares;
   for (std::size_t beam = 0; beam < problem.beam_cosines.size(); ++beam)
     for (std::size_t level = 0; level < truth.levels(); ++level) {
       control.check();
-      add_level({problem, beam, level}, truth, sphere_bins, squares);
+      const Level at{problem, beam, level};
+      if (at.depth() <= metric.deepest * (1.0 + 1e-9)) add_level(at, truth, metric.sphere_bins, squares);
     }
   return {score(squares.simplified, squares), score(squares.refined, squares), score(squares.truth, squares)};
 }

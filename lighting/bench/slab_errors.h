@@ -24,6 +24,11 @@ struct SlabErrors {
   SlabScore only_beam;   // no scattered light at all: what the metric makes of nothing
 };
 
-SlabErrors slab_errors(const SlabProblem& problem, double sphere_bins, const RunControl& control);
+struct SlabMetric {
+  double sphere_bins = 500;
+  double deepest = 10;  // levels of the problem beyond this depth do not count
+};
+
+SlabErrors slab_errors(const SlabProblem& problem, const SlabMetric& metric, const RunControl& control);
 
 }  // namespace sunfleck

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "lighting/bench/slab_phase.h"
 #include "sim/base/run_control.h"
 
 namespace sunfleck {
@@ -56,16 +57,5 @@ class SlabField {
 };
 
 SlabField solve_slab(const SlabProblem& problem, const RunControl& control);
-
-// n points on (0, 1) and their weights, which sum to 1: exact for polynomials of degree 2 n - 1.
-struct GaussRule {
-  std::vector<double> points, weights;
-};
-GaussRule gauss_rule(int n);
-
-// Henyey and Greenstein's function, per sr, and the share it sends on into the hemisphere that holds the
-// direction `cosine` (to its pole) came along: T of [SPP] Eq. 10.
-double henyey_greenstein(double asymmetry, double cosine);
-double forward_share(double asymmetry, double cosine);
 
 }  // namespace sunfleck

@@ -137,6 +137,16 @@ void add_bench_common(CLI::App* c, BenchOptions& o) {
   c->add_option("--plot", o.plot, "Plots to draw (.svg or .png)");
 }
 
+void add_bench_tables(CLI::App* c, BenchOptions& o) {
+  c->add_flag("--quick", o.quick, "Small scenes and few rays: to try it, not to quote");
+  c->add_option("--seed", o.seed, "Seed of the scenes")->capture_default_str()->check(CLI::NonNegativeNumber);
+  c->add_option("--repeats", o.repeats, "Timed runs; the median is printed")->capture_default_str();
+  c->add_option("--threads", o.threads, "Threads; 0: all cores")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 4096));
+  c->add_option("--csv", o.csv, "Table to write (.csv)");
+}
+
 void add_bench(CLI::App& app, BenchOptions& o) {
   CLI::App* bench = app.add_subcommand("bench", "Measure methods on generated scenes");
   bench->require_subcommand(1);
@@ -152,7 +162,9 @@ void add_bench(CLI::App& app, BenchOptions& o) {
   CLI::App* growth = bench->add_subcommand("growth", "Cost of every method as the scene grows");
   growth->add_option("--most-elements", o.most_elements, "Leave larger scenes out")->capture_default_str();
   add_bench_common(growth, o);
-  for (CLI::App* c : {errors, growth}) c->callback([&o, c] { o.kind = c->get_name(); });
+  CLI::App* tables = bench->add_subcommand("tables", "The papers' own figures, ours beside them");
+  add_bench_tables(tables, o);
+  for (CLI::App* c : {errors, growth, tables}) c->callback([&o, c] { o.kind = c->get_name(); });
   bench->footer(
       "Examples:\n  sunfleck bench error-vs-time --scenes sphere --bands PAR\n  sunfleck bench error-vs-time "
       "--scenes all --csv errors.csv --plot errors.svg\n  sunfleck bench growth --methods grid,auto --plot "
@@ -161,6 +173,7 @@ void add_bench(CLI::App& app, BenchOptions& o) {
 
 void run_bench(const BenchOptions& o, const RunControl& control) {
   if (o.kind == "growth") return run_bench_growth(o, control);
+  if (o.kind == "tables") return run_bench_tables(o, control);
   run_bench_errors(o, control);
 }
 

@@ -41,6 +41,16 @@ TEST(PublishedSlab, IsWhatTheSheetHas) {
   }
 }
 
+// The sheet: .1 and .2 % at albedo .5, 4.1 and 4.2 % at .99. Allowed as above.
+TEST(PublishedSlab, HardlyDependsOnItsThickness) {
+  const PublishedTable table = slab_thickness_table({.quick = true}, {});
+  EXPECT_EQ(table.rows.size(), 8u);
+  EXPECT_NEAR(figure(table, "albedo 0.50", "no end"), 0.1, 0.15);
+  EXPECT_NEAR(figure(table, "albedo 0.50", "thickness 5"), 0.2, 0.15);
+  EXPECT_NEAR(figure(table, "albedo 0.99", "no end"), 4.1, 0.15);
+  EXPECT_NEAR(figure(table, "albedo 0.99", "thickness 5"), 4.2, 0.15);
+}
+
 TEST(PublishedTables, AreCompleteAndSayWhatIsOpen) {
   PublishedPlan plan{.quick = true, .repeats = 1};
   const std::vector<PublishedTable> tables = run_published_tables(plan, {});

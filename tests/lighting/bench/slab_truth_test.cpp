@@ -143,7 +143,7 @@ TEST(SlabTruth, StopsWhenAsked) {
 
 // Where light is scattered once at most, the refined form is exact and the simplified one is not.
 TEST(SlabErrors, OfTheRefinedFormVanishWithTheAlbedo) {
-  const SlabErrors e = slab_errors({.albedo = 1e-5, .asymmetry = 0.5, .beam_cosines = {0.8, 0.4}}, 500, {});
+  const SlabErrors e = slab_errors({.albedo = 1e-5, .asymmetry = 0.5, .beam_cosines = {0.8, 0.4}}, {}, {});
   EXPECT_LT(e.refined.scattered, 1e-4);  // albedo, and 1e-5 of the truth in level directions
   EXPECT_GT(e.simplified.scattered, 0.3);
   EXPECT_NEAR(e.only_beam.scattered, 1.0, 1e-12);
