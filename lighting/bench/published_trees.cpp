@@ -68,9 +68,11 @@ struct Step {
   Method method;
   double Published::*figure;  // null: not in the paper
 };
-constexpr std::array<Step, 4> kSteps = {{{Method::kSingleScattering, &Published::single_scattering},
+constexpr std::array<Step, 6> kSteps = {{{Method::kSingleScattering, &Published::single_scattering},
                                          {Method::kSpp, &Published::spp},
                                          {Method::kSppG, &Published::spp_g},
+                                         {Method::kSppH, nullptr},
+                                         {Method::kSppMarched, nullptr},
                                          {Method::kGrid, nullptr}}};
 
 void add_scene(const TreeScene& scene, const PublishedPlan& plan, const RunControl& control,
@@ -100,11 +102,10 @@ PublishedTable tree_table(const PublishedPlan& plan, const RunControl& control) 
       "table 3",
       "[SPP] Table 3: trees, leaf albedo .95, sun overhead",
       "[SPP] Eq. 30 read as sqrt(sum (<L> - <L0>)^2 / sum <L0>^2) over classes of whole leaf layers, those "
-      "before and those in all along the sun, unweighted; L: light of both faces, direct sun included; "
-      "truth: "
+      "before and those in all along the sun, unweighted; L: light of both faces, direct sun included; L0: "
       "traced. depth: mean leaf layers along the diameter of an even crown of this leaf area; 3,000 to 6,000 "
-      "square leaves of random angles, no ground; side by side: 2.1 radii apart. grid is ours and not in the "
-      "paper",
+      "square leaves of random angles, no ground; side by side: 2.1 radii apart. Columns without a second "
+      "figure are not in the paper",
       "the tree (18,000 triangles, its density, branches, whether it stands on ground), the classes, and "
       "their weights. Read so, single scattering comes out worst in all our crowns, where the paper has it "
       "between spp_g and spp",
