@@ -54,7 +54,8 @@ struct ExportOptions {
 void run_export(const ExportOptions& options);
 
 struct BenchOptions {
-  std::string kind;  // error-vs-time, growth, stability
+  std::string kind;    // error-vs-time, growth, stability, tables
+  bool quick = false;  // tables
   std::string scenes = "quick", bands = "PAR,NIR", methods = "all";
   int reference_rays = 256;
   std::size_t most_elements = 1'000'000;  // growth
@@ -66,6 +67,7 @@ struct BenchOptions {
 void run_bench_errors(const BenchOptions& options, const RunControl& control);
 void run_bench_stability(const BenchOptions& options, const RunControl& control);
 void run_bench_growth(const BenchOptions& options, const RunControl& control);
+void run_bench_tables(const BenchOptions& options, const RunControl& control);
 
 struct ServeOptions {
   std::filesystem::path config, configs;

@@ -137,6 +137,16 @@ void add_bench_common(CLI::App* c, BenchOptions& o) {
   c->add_option("--plot", o.plot, "Plots to draw (.svg or .png)");
 }
 
+void add_bench_tables(CLI::App* c, BenchOptions& o) {
+  c->add_flag("--quick", o.quick, "Small scenes and few rays: to try it, not to quote");
+  c->add_option("--seed", o.seed, "Seed of the scenes")->capture_default_str()->check(CLI::NonNegativeNumber);
+  c->add_option("--repeats", o.repeats, "Timed runs; the median is printed")->capture_default_str();
+  c->add_option("--threads", o.threads, "Threads; 0: all cores")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 4096));
+  c->add_option("--csv", o.csv, "Table to write (.csv)");
+}
+
 void add_bench(CLI::App& app, BenchOptions& o) {
   CLI::App* bench = app.add_subcommand("bench", "Measure methods on generated scenes");
   bench->require_subcommand(1);
@@ -155,7 +165,9 @@ void add_bench(CLI::App& app, BenchOptions& o) {
   CLI::App* stability =
       bench->add_subcommand("stability", "Every method at the limits of physics and arithmetic");
   stability->add_option("--csv", o.csv, "Tables to write (.csv)");
-  for (CLI::App* c : {errors, growth, stability}) c->callback([&o, c] { o.kind = c->get_name(); });
+  CLI::App* tables = bench->add_subcommand("tables", "The papers' own figures, ours beside them");
+  add_bench_tables(tables, o);
+  for (CLI::App* c : {errors, growth, stability, tables}) c->callback([&o, c] { o.kind = c->get_name(); });
   bench->footer(
       "Examples:\n  sunfleck bench error-vs-time --scenes sphere --bands PAR\n  sunfleck bench error-vs-time "
       "--scenes all --csv errors.csv --plot errors.svg\n  sunfleck bench growth --methods grid,auto --plot "
@@ -165,6 +177,7 @@ void add_bench(CLI::App& app, BenchOptions& o) {
 void run_bench(const BenchOptions& o, const RunControl& control) {
   if (o.kind == "growth") return run_bench_growth(o, control);
   if (o.kind == "stability") return run_bench_stability(o, control);
+  if (o.kind == "tables") return run_bench_tables(o, control);
   run_bench_errors(o, control);
 }
 

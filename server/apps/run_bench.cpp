@@ -5,6 +5,7 @@
 #include "lighting/bench/bench_scenes.h"
 #include "lighting/bench/benchmark_tables.h"
 #include "lighting/bench/cost_growth.h"
+#include "lighting/bench/published_tables.h"
 #include "lighting/bench/stability.h"
 #include "server/apps/commands.h"
 #include "server/apps/outputs.h"
@@ -61,21 +62,6 @@ void write_outputs(const BenchOptions& o, const std::string& csv, const PlotPage
   }
 }
 
-// What the papers print for their own scenes, to read beside the rows.
-void print_published() {
-  std::printf(
-      "published, own scenes: [SPP] Table 3, class RMS, albedo .95, single tree / many trees: spp_g 6.2 / "
-      "9.2 "
-      "%%,\n"
-      "  spp 65 / 43 %%, single scattering 16 / 28 %%; Table 4, 13K cells: 117 ms preprocessing, 25 ms sky, "
-      "3.9 "
-      "ms sun;\n"
-      "  52K cells: 533, 100, 3.9 to 6.7 ms. [Boulanger08]: sky 5 %%, sun 7.5 %%, indirect sun 6 %%; 2 s and "
-      "40 "
-      "s of\n"
-      "  precomputation for 1,500 and 40,000 leaves.\n");
-}
-
 void print_front(const std::vector<BenchmarkRow>& rows, const std::string& scene, const std::string& band) {
   std::printf("%-12s %-5s front:", scene.c_str(), band.c_str());
   for (const std::size_t i : pareto_front(rows, scene, band))
@@ -109,7 +95,7 @@ void run_bench_errors(const BenchOptions& o, const RunControl& control) {
     all.insert(all.end(), rows.begin(), rows.end());
   }
   for (const std::string& line : refused) std::printf("refused  %s\n", line.c_str());
-  print_published();
+  std::printf("what the papers say of themselves: sunfleck bench tables\n");
   write_outputs(o, benchmark_csv(all, o.threads, machine), pareto_page(all, machine));
 }
 
@@ -155,6 +141,19 @@ void run_bench_stability(const BenchOptions& o, const RunControl& control) {
   std::fputs(stability_table(scenes, forms).c_str(), stdout);
   if (o.csv.empty()) return;
   write_whole_file(o.csv, stability_csv(scenes) + "\n" + stability_csv(forms));
+  std::printf("wrote    %s\n", o.csv.c_str());
+}
+
+void run_bench_tables(const BenchOptions& o, const RunControl& control) {
+  check(o);
+  const MachineFacts machine = machine_facts();
+  say_machine(machine, o);
+  const std::vector<PublishedTable> tables =
+      run_published_tables({o.quick, o.threads, o.repeats, o.seed}, control);
+  finish_progress();
+  std::printf("%s", published_text(tables).c_str());
+  if (o.csv.empty()) return;
+  write_whole_file(o.csv, published_csv(tables, o.threads, machine));
   std::printf("wrote    %s\n", o.csv.c_str());
 }
 

@@ -180,6 +180,7 @@ TEST(CommandLine, TellsOneClearErrorAndLeavesNothingBehind) {
       {"import " + write_file("bad.txt", "0.1 0 0 x 0 0 1\n").string() + " -o " + out, "bad.txt:1"},
       {"export " + forest + " --prototype 99 -o " + out, "0 to 2"},
       {"bench error-vs-time --scenes moon", "sphere"},
+      {"bench tables --quick --csv tables.txt", ".csv"},
       {"grow " + scene + " --print", "--lsystem"},
       {"grow " + scene + " -o /nonexistent/a.vdb", "there is no folder"},
       {"light " + forest + " --scene " + scene + " -o /nonexistent/a.nc", "there is no folder"},
