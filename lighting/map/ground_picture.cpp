@@ -49,7 +49,8 @@ std::string script_of(const StandGround& map, const GroundPicture& p, const std:
       << " font \"sans,11\"\nset output " << gnuplot_quoted(picture.string()) << "\nset encoding utf8\n"
       << kPalette << "set title " << gnuplot_quoted(p.title) << "\nset xlabel \"east (m)\"\n"
       << "set ylabel \"north (m)\"\nset cblabel " << gnuplot_quoted(p.value_label) << "\n"
-      << "set size ratio -1\nset tics out nomirror\nset border 15\nunset key\n"
+      << "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.4,0.2\nset size ratio -1\nset "
+         "tics out nomirror\nset border 15\nunset key\n"
       << "set xrange [" << map.lo_m.x << ':' << hi.x << "]\nset yrange [" << map.lo_m.y << ':' << hi.y
       << "]\n";
   if (p.from < p.to) out << "set cbrange [" << p.from << ':' << p.to << "]\n";
@@ -61,7 +62,7 @@ std::string script_of(const StandGround& map, const GroundPicture& p, const std:
     out << ", $stems using 1:2:3 with circles fill transparent solid 0.15 border linecolor rgb '#ffffff'";
   if (!p.sensors.empty())
     out << ", $sensors using 1:2 with points pointtype 9 pointsize 1.3 linecolor rgb '#d1495b'"
-        << ", $sensors using 1:2:4 with labels offset 0.6,0.6 left font \",9\" textcolor rgb '#d1495b'";
+        << ", $sensors using 1:2:4 with labels boxed offset 0.9,0.7 left font \",9\" textcolor rgb '#8c1c2b'";
   out << "\nset output\n";
   return out.str();
 }

@@ -19,7 +19,7 @@ struct GroundPicture {
   std::string title, value_label;  // the colour bar's, with unit
   std::vector<double> value;       // per cell of the map
   double from = 0, to = 0;         // of the colour bar; equal: chosen from the values
-  std::vector<MapMark> stems, sensors;
+  std::vector<MapMark> stems = {}, sensors = {};
   int width_px = 900;
 };
 

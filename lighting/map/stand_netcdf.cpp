@@ -91,6 +91,7 @@ class StandWriter {
     number("par_umol_per_j", all_.par.umol_per_j);
     number("virtual_trees_left_out", static_cast<double>(all_.virtual_trees));
     number("utc_offset_minutes", all_.utc_offset_minutes);
+    number("layer_area_m2", all_.layer_area_m2);
     number("map_is_periodic", all_.map.periodic ? 1 : 0);
   }
 

@@ -17,7 +17,7 @@ namespace sunfleck {
 // Appears whole or not at all. Throws Error(kInputOutput).
 void save_stand_netcdf(const StandTables& tables, const std::filesystem::path& path);
 
-// What was saved: values as floats; of the sensors names, places and measured shares; pressure and
+// What was saved: values as floats; measured shares stand in the sensor table only; pressure and
 // temperature of the place are not in the file. Throws Error(kInvalidInput) where it is not a stand study.
 StandTables load_stand_netcdf(const std::filesystem::path& path);
 

@@ -95,6 +95,7 @@ class StandReader {
     all_.par = {number("par_fraction_of_global_energy"), number("par_umol_per_j")};
     all_.virtual_trees = static_cast<std::size_t>(number("virtual_trees_left_out"));
     all_.utc_offset_minutes = static_cast<int>(number("utc_offset_minutes"));
+    all_.layer_area_m2 = number("layer_area_m2");
     all_.map.periodic = number("map_is_periodic") != 0;
   }
 

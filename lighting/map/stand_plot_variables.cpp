@@ -71,7 +71,7 @@ void add_band(const StandStudy& study, std::size_t b, StandTable& table) {
   energy("reflected", "energy reflected to the sky", &PlotBand::reflected);
 }
 
-void add_world(const WorldLight& world, StandTable& table) {
+void add_world(const LargeStandLight& world, StandTable& table) {
   const auto add = [&](const char* name, const char* long_name, const std::vector<double>& parts) {
     StandVariable v{name, "MJ", "mj", long_name};
     double whole = 0;
@@ -142,17 +142,21 @@ StandTable angle_table(const StandStudy& study) {
   return table;
 }
 
-StandTable layer_table(const StandStudy& study) {
+StandTable layer_table(const StandStudy& study, double ground_m2) {
   StandTable table{StandTarget::kLayer, 0, {}};
   if (!study.period) return table;
   const LayerTables& layers = study.period->layers;
   table.rows = layers.leaf_area_m2.size();
-  const double map_m2 = study.period->map.cell_area_m2() * static_cast<double>(study.period->map.count());
-  StandVariable area{"leaf_area", "m2", "m2", "one-sided leaf area in the layer", "", false};
+  StandVariable area{
+      "leaf_area", "m2", "m2", "one-sided leaf area of all trees in the layer, virtual ones too", "", false};
   area.value = layers.leaf_area_m2;
-  StandVariable density{
-      "leaf_area_density", "m2 m-3", "m2_m3", "leaf area per volume over the map", "", false};
-  for (const double a : layers.leaf_area_m2) density.value.push_back(a / (map_m2 * layers.layer_m));
+  StandVariable density{"leaf_area_density",
+                        "m2 m-3",
+                        "m2_m3",
+                        "leaf area of all trees per volume over the ground they stand on",
+                        "",
+                        false};
+  for (const double a : layers.leaf_area_m2) density.value.push_back(a / (ground_m2 * layers.layer_m));
   table.variables = {std::move(area), std::move(density)};
   StandVariable taken{"intercepted", "MJ", "mj", "unscattered global radiation that met leaves or wood"};
   fill(source(study, [](const StandLight& l) -> const IntervalTable& { return l.layers.intercepted; }), {}, 1,

@@ -1,5 +1,6 @@
 #include "lighting/map/stand_tables.h"
 
+#include <algorithm>
 #include <cctype>
 
 #include "lighting/map/stand_variables.h"
@@ -80,6 +81,13 @@ std::vector<StandTree> describe_trees(const Forest& forest, const std::vector<st
   return trees;
 }
 
+// Periodic: the map. Else what the trees cover, or the map where that is larger.
+double layer_area_m2(const Forest& forest, const StandGround& map) {
+  const double map_m2 = map.size_m().x * map.size_m().y;
+  const Vec3 size = forest_bounds(forest).size();
+  return map.periodic ? map_m2 : std::max(map_m2, size.x * size.y);
+}
+
 void keep(StandTable table, StandTables& all) {
   if (table.rows > 0 && !table.variables.empty()) all.tables.push_back(std::move(table));
 }
@@ -135,6 +143,7 @@ StandTables stand_tables(const StandStudy& study, const Forest& forest, const St
   all.provenance = study.provenance;
   if (study.period) {
     all.layer_m = study.period->layers.layer_m;
+    all.layer_area_m2 = layer_area_m2(forest, all.map);
     all.angles_deg = study.period->plot.zenith_deg;
     if (!study.period->canopy.empty()) {
       all.ring_bounds_deg.push_back(0);
@@ -150,7 +159,7 @@ StandTables stand_tables(const StandStudy& study, const Forest& forest, const St
   keep(stand::tree_table(study, rows), all);
   keep(stand::sensor_table(study), all);
   keep(stand::ground_table(study), all);
-  keep(stand::layer_table(study), all);
+  keep(stand::layer_table(study, all.layer_area_m2), all);
   keep(stand::level_table(study), all);
   return all;
 }

@@ -58,7 +58,9 @@ struct StandTables {
   std::size_t virtual_trees = 0;       // left out
   std::vector<SensorRow> sensors;
   StandGround map;
-  double layer_m = 1;                   // layers and levels count from the ground
+  double layer_m = 1;  // layers and levels count from the ground
+  // Layers hold all trees, virtual ones too: leaf area density is over the ground all of them stand on.
+  double layer_area_m2 = 0;
   std::vector<double> ring_bounds_deg;  // one more than rings; empty without canopy views
   std::vector<double> angles_deg;       // rows of the angle table
   std::vector<StandTable> tables;       // only those with rows and variables

@@ -32,7 +32,7 @@ const StandVariable kPotential{"potential", "MJ", "mj", "the same if the tree st
 const StandVariable kCompetition{"light_competition", "1", "",
                                  "intercepted / potential; 1: no neighbour takes anything"};
 
-StandTable world_trees(const WorldLight& world, const std::vector<std::size_t>& rows) {
+StandTable world_trees(const LargeStandLight& world, const std::vector<std::size_t>& rows) {
   StandTable table{StandTarget::kTree, rows.size(), {}};
   const IntervalTable taken = whole_of(world.tree_intercepted), alone = whole_of(world.tree_potential);
   add_world(rows, kIntercepted, 1, world.tree_intercepted, taken, table);
@@ -44,7 +44,7 @@ StandTable world_trees(const WorldLight& world, const std::vector<std::size_t>& 
 }
 
 StandTable world_ground(const StandStudy& study) {
-  const WorldLight& world = *study.world;
+  const LargeStandLight& world = *study.world;
   StandTable table{StandTarget::kGround, world.map.count(), {}};
   // Shares of the period: each interval counts with its open light; without parts, there is one interval.
   const auto weights = [&](const std::vector<double>& open) {

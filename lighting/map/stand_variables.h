@@ -62,7 +62,7 @@ StandTable angle_table(const StandStudy& study);
 StandTable tree_table(const StandStudy& study, const std::vector<std::size_t>& rows);
 StandTable sensor_table(const StandStudy& study);
 StandTable ground_table(const StandStudy& study);
-StandTable layer_table(const StandStudy& study);
+StandTable layer_table(const StandStudy& study, double ground_m2);
 StandTable level_table(const StandStudy& study);
 
 // Sum over the parts as one table of one interval (world light has parts only); shares are weighted by

@@ -85,6 +85,12 @@ std::string number_with_error(double value, double error, int digits, double fac
   return out + "&nbsp;&plusmn;&nbsp;" + number(shown, needed);
 }
 
+std::string count(std::size_t things) {
+  std::string text = std::to_string(things);
+  for (std::size_t at = text.size(); at > 3;) text.insert(at -= 3, "&thinsp;");
+  return text;
+}
+
 std::string figure(double value) {
   if (!std::isfinite(value)) return "&ndash;";
   if (value == 0) return "0";
@@ -102,13 +108,18 @@ void Table::row(std::vector<std::string> cells) {
   rows_.push_back(std::move(cells));
 }
 
+std::string Table::cell(const char* tag, std::size_t column, const std::string& content) const {
+  return "<" + std::string(tag) + (column < text_columns_ ? " class=\"l\">" : ">") + content + "</" + tag +
+         ">";
+}
+
 std::string Table::text(const std::string& caption) const {
   std::string out = "<div class=\"scroll\"><table><caption>" + caption + "</caption><thead><tr>";
-  for (const std::string& h : header_) out += "<th scope=\"col\">" + h + "</th>";
+  for (std::size_t c = 0; c < header_.size(); ++c) out += cell("th", c, header_[c]);
   out += "</tr></thead><tbody>\n";
   for (const auto& row : rows_) {
     out += "<tr>";
-    for (const std::string& cell : row) out += "<td>" + cell + "</td>";
+    for (std::size_t c = 0; c < row.size(); ++c) out += cell("td", c, row[c]);
     out += "</tr>\n";
   }
   return out + "</tbody></table></div>\n";

@@ -214,7 +214,7 @@ std::string trees(const Page& page) {
       "alone (MJ)", "Light competition"};
   if (absorbed)
     header.insert(header.end(), {"Absorbed PAR (mol)", "per leaf area (mol&nbsp;m<sup>&minus;2</sup>)"});
-  html::Table out(header);
+  html::Table out(header, 2);
   for (std::size_t k = 0; k < std::min(table->rows, kMostTreeRows); ++k) {
     const StandTree& tree = page.tables.trees[k];
     const auto with_error = [&](const char* name) {

@@ -74,13 +74,14 @@ std::string sensor_name(const StandTables& tables, std::size_t s) {
 }
 
 std::string title_of(const Page& page) {
-  return "Light in the stand " + (page.forest.name.empty() ? "without a name" : escaped(page.forest.name));
+  return page.forest.name.empty() ? "Light in a stand"
+                                  : "Light in &ldquo;" + escaped(page.forest.name) + "&rdquo;";
 }
 
 std::string key_figures(const Page& page) {
   const StandTables& t = page.tables;
   std::string out = "<div class=\"cards\">\n";
-  out += card(figure(static_cast<double>(t.trees.size())), "", "trees of the inventory");
+  out += card(html::count(t.trees.size()), "", "trees of the inventory");
   const Figure lai = figure_of(t, StandTarget::kPlot, "leaf_area_index");
   if (std::isfinite(lai.value))
     out += card(number(lai.value, 2), "", "leaf area index (m&sup2; per m&sup2;)");
@@ -117,9 +118,9 @@ std::string question(const Page& page) {
       {"PAR", number(t.par.par_fraction, 3) + " of the global energy; " + number(t.par.umol_per_j, 2) +
                   "&nbsp;&micro;mol per J of PAR"},
       {"Stand",
-       figure(static_cast<double>(t.trees.size())) + " trees with " + figure(own_leaf_area_m2(t)) +
+       html::count(t.trees.size()) + " trees with " + figure(own_leaf_area_m2(t)) +
            "&nbsp;m&sup2; of one-sided leaf area" +
-           (t.virtual_trees > 0 ? "; " + figure(static_cast<double>(t.virtual_trees)) +
+           (t.virtual_trees > 0 ? "; " + html::count(t.virtual_trees) +
                                       " more trees that nobody measured stand around them and are in no table"
                                 : "")},
       {"Map", number(size.x, 1) + " &times; " + number(size.y, 1) + "&nbsp;m in " + std::to_string(t.map.nx) +

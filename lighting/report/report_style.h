@@ -36,7 +36,7 @@ caption { text-align: left; padding: 0.6rem 0.7rem; color: var(--quiet); font-si
 th { position: sticky; top: 0; background: var(--tint); text-align: right; font-weight: 600; vertical-align: bottom; }
 th, td { padding: 0.32rem 0.7rem; border-bottom: 1px solid var(--line); }
 td { text-align: right; white-space: nowrap; }
-th:first-child, td:first-child { text-align: left; }
+th.l, td.l { text-align: left; }
 tbody tr:hover { background: var(--tint); }
 .photos { display: grid; grid-template-columns: repeat(auto-fill, minmax(150px, 1fr)); gap: 0.9rem; }
 .photo { margin: 0; text-align: center; }

@@ -152,10 +152,9 @@ std::optional<PlotPage> profile_plot(const StandTables& t) {
   page.panels.back().x.from = 0;
   page.panels.back().x.to = 100;
   if (t.find(StandTarget::kLayer, "absorbed_par_photons"))
-    page.panels.push_back(
-        profile_panel(t, StandTarget::kLayer, "absorbed_par_photons", "PAR absorbed by leaves",
-                      "mol per m2 of map and m of height",
-                      1 / (t.map.cell_area_m2() * static_cast<double>(t.map.count()) * t.layer_m), kAmber));
+    page.panels.push_back(profile_panel(t, StandTarget::kLayer, "absorbed_par_photons",
+                                        "PAR absorbed by leaves", "mol per m2 of ground and m of height",
+                                        1 / (t.layer_area_m2 * t.layer_m), kAmber));
   page.panels.push_back(profile_panel(t, StandTarget::kLayer, "leaf_area_density", "Leaf area",
                                       "leaf area density (m2 m-3)", 1, kGreen));
   return page;

@@ -8,6 +8,7 @@
 #include "lighting/render/render.h"
 #include "lighting/sky/sun_position.h"
 #include "sim/base/error.h"
+#include "sim/forest/forest_spec.h"
 
 namespace sunfleck {
 namespace {
@@ -35,7 +36,7 @@ Camera camera_for(const Forest& forest, const StandTables& t) {
   const double reach = std::max({size.x, size.y, 2 * (top - foot)});
   Camera camera;
   camera.look_at_m = {centre.x, centre.y, foot + 0.35 * (top - foot)};
-  camera.position_m = camera.look_at_m + Vec3(0.55 * reach, -1.15 * reach, 0.55 * reach);
+  camera.position_m = camera.look_at_m + Vec3(0.6 * reach, -1.35 * reach, 0.7 * reach);
   camera.vertical_fov_deg = 34;
   camera.width_px = kWidthPx;
   camera.height_px = kHeightPx;
@@ -43,10 +44,18 @@ Camera camera_for(const Forest& forest, const StandTables& t) {
   return camera;
 }
 
+// The picture is of what was measured: trees put around the plot would hide it.
+Forest own_trees(const Forest& forest) {
+  Forest own = forest;
+  std::erase_if(own.instances, [](const Instance& i) { return is_virtual(i.tree); });
+  own.period.reset();
+  return own.instances.empty() ? forest : own;
+}
+
 LightRequest half_cloudy_noon(const StandTables& t) {
   LightRequest request;
   request.method = Method::kSpp;
-  request.optics = {{"PAR"}, {0.12}, {}};
+  request.optics = {{"PAR"}, {0.07}, {}};
   request.light.to_sun = noon_sun(t);
   request.light.sun_half_angle_rad = radians_from_degrees(0.265);
   request.light.bands = {{250, 90}};
@@ -55,8 +64,9 @@ LightRequest half_cloudy_noon(const StandTables& t) {
 
 }  // namespace
 
-std::optional<std::string> draw_stand(const Forest& forest, const StandTables& tables,
+std::optional<std::string> draw_stand(const Forest& all, const StandTables& tables,
                                       const std::filesystem::path& path, const RunControl& control) {
+  const Forest forest = own_trees(all);
   if (ForestIndex(forest).element_count() > kMostElements)
     return "the stand has more than 3 million leaves; `sunfleck light` and `sunfleck render` draw it";
   try {
