@@ -135,9 +135,8 @@ std::string stand_picture(const Page& page, const RunControl& control) {
   if (const auto why = draw_stand(page.forest, page.tables, file, control))
     return "<p class=\"quiet\">No picture of the stand: " + escaped(*why) + "</p>\n";
   return "<figure>" + html::image(file, "The stand seen from the south-east", "wide") +
-         "<figcaption>The stand from the south-east at noon, leaves lit by the simplest method. Only a "
-         "picture: no "
-         "number on this page comes from it.</figcaption></figure>\n";
+         "<figcaption>The inventory's trees from the south-east at noon, lit by a simple method. Only a "
+         "picture: no number on this page comes from it.</figcaption></figure>\n";
 }
 
 std::string methods(const Page& page) {

@@ -49,6 +49,9 @@ PlotPanel profile_panel(const StandTables& t, StandTarget target, const char* na
                           .x = row(*table.find(name), table.rows, 0, factor),
                           .y = z,
                           .colour = colour});
+  const std::vector<double>& shown = panel.series.front().x;
+  if (*std::max_element(shown.begin(), shown.end()) <= 0)
+    panel.x.to = 1;  // nothing at all: an axis all the same
   return panel;
 }
 

@@ -14,7 +14,7 @@ namespace sunfleck {
 namespace {
 
 constexpr std::size_t kMostElements = 3'000'000;
-constexpr int kWidthPx = 1100, kHeightPx = 520;
+constexpr int kWidthPx = 1000, kHeightPx = 460;
 
 // The highest sun of the period's middle day; a low one is lifted so that polar nights can be seen.
 Vec3 noon_sun(const StandTables& t) {
@@ -28,16 +28,15 @@ Vec3 noon_sun(const StandTables& t) {
   return glm::normalize(best);
 }
 
-// From the south-east, wide enough for the map, above the crowns.
-Camera camera_for(const Forest& forest, const StandTables& t) {
+// From the south-east, above the crowns, near enough that the trees fill the picture.
+Camera camera_for(const Forest& forest) {
   const Box box = forest_bounds(forest);
-  const Vec2 size = t.map.size_m(), centre = t.map.lo_m + 0.5 * size;
-  const double top = box.hi.z, foot = forest.terrain.height_at(centre.x, centre.y);
-  const double reach = std::max({size.x, size.y, 2 * (top - foot)});
+  const Vec3 size = box.size();
+  const double reach = std::max({0.8 * size.x, size.y, 1.2 * size.z});
   Camera camera;
-  camera.look_at_m = {centre.x, centre.y, foot + 0.35 * (top - foot)};
-  camera.position_m = camera.look_at_m + Vec3(0.6 * reach, -1.35 * reach, 0.7 * reach);
-  camera.vertical_fov_deg = 34;
+  camera.look_at_m = box.lo + size * Vec3(0.5, 0.45, 0.4);
+  camera.position_m = camera.look_at_m + Vec3(0.5 * reach, -1.2 * reach, 0.6 * reach);
+  camera.vertical_fov_deg = 36;
   camera.width_px = kWidthPx;
   camera.height_px = kHeightPx;
   camera.samples_per_pixel = 4;
@@ -73,7 +72,7 @@ std::optional<std::string> draw_stand(const Forest& all, const StandTables& tabl
     const LightRequest request = half_cloudy_noon(tables);
     const LightMap map = compute_light_map(forest, request, {}, control);
     const OpticsTable optics(forest, request.optics);
-    save_png(render(forest, optics, map, {camera_for(forest, tables), request.light}, control), path);
+    save_png(render(forest, optics, map, {camera_for(forest), request.light}, control), path);
     return std::nullopt;
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::kInvalidInput && error.kind() != ErrorKind::kLimitExceeded) throw;
