@@ -33,7 +33,8 @@ void check(const PlotPage& page, const std::filesystem::path& path) {
   if (page.panels.empty() || page.columns < 1) throw_invalid("plot", "has no panel", "at least one");
   for (const PlotPanel& panel : page.panels)
     for (const PlotSeries& s : panel.series)
-      if (s.x.size() != s.y.size() || (!s.y_error.empty() && s.y_error.size() != s.y.size()))
+      if (s.x.size() != s.y.size() || (!s.y_error.empty() && s.y_error.size() != s.y.size()) ||
+          (!s.labels.empty() && s.labels.size() != s.y.size()))
         throw_invalid("plot '" + panel.title + "', series '" + s.name + "'", "x and y differ in length",
                       "one y for every x");
 }
@@ -62,6 +63,8 @@ void write_data(std::ostream& out, const std::string& block, const PlotSeries& s
     }
     out << series.x[i] << ' ' << series.y[i];
     if (!series.y_error.empty()) out << ' ' << series.y_error[i];
+    if (!series.labels.empty())
+      out << ' ' << gnuplot_quoted(series.labels[i].empty() ? " " : series.labels[i]);
     out << "\n";
   }
   out << "EOD\n";
@@ -86,6 +89,9 @@ void write_panel(std::ostream& out, const PlotPanel& panel, std::size_t number) 
       plot << " notitle";
     else
       plot << " title " << gnuplot_quoted(panel.series[s].name);
+    if (!panel.series[s].labels.empty())
+      plot << ", " << block << " using 1:2:" << (panel.series[s].y_error.empty() ? 3 : 4)
+           << " with labels left offset 0.8,0.4 font \",8\" textcolor rgb '#5d6b64' notitle";
   }
   if (plot.str().empty()) plot << "plot NaN notitle";
   out << plot.str() << "\n";

@@ -13,9 +13,10 @@ enum class PlotStyle { kPoints, kLines, kLinesPoints, kSteps, kBoxes };
 struct PlotSeries {
   std::string name = {};  // for the key; empty: none
   PlotStyle style = PlotStyle::kLinesPoints;
-  std::vector<double> x = {}, y = {};  // same length; values that are not finite leave a gap
-  std::vector<double> y_error = {};    // half height of the error bars; empty: none
-  std::string colour = {};             // "#rrggbb"; empty: the next of a palette
+  std::vector<double> x = {}, y = {};    // same length; values that are not finite leave a gap
+  std::vector<double> y_error = {};      // half height of the error bars; empty: none
+  std::string colour = {};               // "#rrggbb"; empty: the next of a palette
+  std::vector<std::string> labels = {};  // beside the points; empty: none
 };
 
 enum class AxisScale { kLinear, kLog };

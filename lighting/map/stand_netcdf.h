@@ -21,4 +21,7 @@ void save_stand_netcdf(const StandTables& tables, const std::filesystem::path& p
 // temperature of the place are not in the file. Throws Error(kInvalidInput) where it is not a stand study.
 StandTables load_stand_netcdf(const std::filesystem::path& path);
 
+// Whether the file says so of itself. Throws as a file that cannot be opened does.
+bool is_stand_netcdf(const std::filesystem::path& path);
+
 }  // namespace sunfleck

@@ -10,6 +10,13 @@
 namespace sunfleck {
 namespace {
 
+bool says_stand_study(const NetcdfHandle& file) {
+  std::size_t length = 0;
+  nc_type type = NC_NAT;
+  return nc_inq_att(file.id(), NC_GLOBAL, stand_file::kFormatName, &type, &length) == NC_NOERR &&
+         type == NC_CHAR && file.text_attribute(stand_file::kFormatName) == stand_file::kFormat;
+}
+
 class StandReader {
  public:
   explicit StandReader(const NetcdfHandle& file) : file_(file) {}
@@ -27,10 +34,7 @@ class StandReader {
 
  private:
   void require_our_format() const {
-    std::size_t length = 0;
-    if (nc_inq_attlen(file_.id(), NC_GLOBAL, stand_file::kFormatName, &length) == NC_NOERR &&
-        file_.text_attribute(stand_file::kFormatName) == stand_file::kFormat)
-      return;
+    if (says_stand_study(file_)) return;
     throw_invalid(file_.shown(), "is a NetCDF file but not a stand study",
                   "name a file that `sunfleck stand --netcdf` wrote");
   }
@@ -211,6 +215,8 @@ class StandReader {
 };
 
 }  // namespace
+
+bool is_stand_netcdf(const std::filesystem::path& path) { return says_stand_study(NetcdfHandle::open(path)); }
 
 StandTables load_stand_netcdf(const std::filesystem::path& path) {
   const NetcdfHandle file = NetcdfHandle::open(path);

@@ -171,9 +171,11 @@ std::string ground(const Page& page) {
   };
   std::string out = "<figure>" + html::image(file, "Map of light on the ground", "map") +
                     "<figcaption>Circles: stems. Triangles: sensors.</figcaption></figure>\n";
-  return out + paragraph("Half of the cells get less than " + at(0.5) + ", one in ten less than " + at(0.1) +
-                         " and one in ten more than " + at(0.9) + " (" + html::escaped(picture->value_label) +
-                         ").");
+  const bool share = page.tables.find(StandTarget::kGround, "pacl_total") != nullptr;
+  const std::string unit = share ? "&nbsp;%" : "&nbsp;MJ&nbsp;m<sup>&minus;2</sup>";
+  return out + paragraph(std::string(share ? "Of open light, half" : "Half") +
+                         " of the cells get less than " + at(0.5) + unit + ", one in ten less than " +
+                         at(0.1) + unit + " and one in ten more than " + at(0.9) + unit + ".");
 }
 
 std::string profile(const Page& page) {

@@ -32,6 +32,11 @@ std::vector<double> error_row(const StandVariable& v, std::size_t rows, double f
   return out;
 }
 
+std::string sensor_label(const StandTables& t, std::size_t s) {
+  const std::string& name = t.sensors[s].sensor.name;
+  return name.empty() ? std::to_string(s + 1) : name;
+}
+
 std::vector<double> layer_middles(const StandTables& t, std::size_t rows) {
   std::vector<double> z;
   for (std::size_t k = 0; k < rows; ++k) z.push_back(t.layer_m * (static_cast<double>(k) + 0.5));
@@ -138,9 +143,7 @@ std::optional<GroundPicture> ground_picture(const StandTables& t) {
     if (t.trees.size() <= kMostStems && t.map.contains(tree.foot_m.x, tree.foot_m.y))
       picture.stems.push_back({Vec2(tree.foot_m), 0.004 * std::max(t.map.size_m().x, t.map.size_m().y)});
   for (std::size_t s = 0; s < t.sensors.size() && t.sensors.size() <= kMostSensorMarks; ++s)
-    picture.sensors.push_back(
-        {t.sensors[s].sensor.position_m, 0,
-         t.sensors[s].sensor.name.empty() ? std::to_string(s + 1) : t.sensors[s].sensor.name});
+    picture.sensors.push_back({t.sensors[s].sensor.position_m, 0, sensor_label(t, s)});
   return picture;
 }
 
@@ -192,6 +195,8 @@ std::optional<PlotPage> scatter_plot(const StandStudy& study, const StandTables&
                     .y = row(modelled, sensors->rows, 0, 100),
                     .y_error = error_row(modelled, sensors->rows, 100),
                     .colour = kRed};
+  for (std::size_t s = 0; s < sensors->rows && sensors->rows <= kMostSensorMarks; ++s)
+    points.labels.push_back(sensor_label(t, s));
   double highest = 1;
   for (std::size_t s = 0; s < points.x.size(); ++s)
     if (std::isfinite(points.x[s]))

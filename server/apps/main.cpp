@@ -99,7 +99,7 @@ void add_inventory(CLI::App& app, InventoryOptions& o) {
 }
 
 void add_files(CLI::App& app, InfoOptions& info, ImportOptions& in, ExportOptions& out) {
-  CLI::App* c = app.add_subcommand("info", "Say what is in a forest (.vdb) or light map (.nc)");
+  CLI::App* c = app.add_subcommand("info", "Say what is in a forest (.vdb), light map or stand study (.nc)");
   c->add_option("file", info.file, "File to describe")->required();
   c->footer("Examples:\n  sunfleck info stand.vdb\n  sunfleck info light.nc");
 

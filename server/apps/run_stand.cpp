@@ -69,7 +69,7 @@ void run_stand(const StandOptions& o, const RunControl& control) {
   if (!o.photographs.empty()) add(save_photographs(forest, spec, o.photograph_px, o.photographs, control));
   if (!o.report.empty()) save_stand_report(study, tables, forest, o.report, control), add({o.report});
   finish_progress();
-  print_stand(study, tables, forest);
+  print_stand(tables, forest.name);
   print_written(written);
 }
 

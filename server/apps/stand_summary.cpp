@@ -16,10 +16,10 @@ double value_at(const StandTables& t, StandTarget target, const std::string& nam
   return v && at < v->value.size() ? v->value[at] : std::numeric_limits<double>::quiet_NaN();
 }
 
-void print_header(const StandTables& t, const Forest& forest) {
+void print_header(const StandTables& t, const std::string& name) {
   double leaf_m2 = 0;
   for (const StandTree& tree : t.trees) leaf_m2 += tree.leaf_area_m2;
-  std::printf("stand        %s: %s trees", forest.name.c_str(), grouped(t.trees.size()).c_str());
+  std::printf("stand        %s: %s trees", name.c_str(), grouped(t.trees.size()).c_str());
   if (t.virtual_trees > 0)
     std::printf(" and %s around them that nobody measured", grouped(t.virtual_trees).c_str());
   std::printf("; %.6g m2 of one-sided leaf area\n", leaf_m2);
@@ -73,30 +73,48 @@ void print_intervals(const StandTables& t) {
   std::printf("\n");
 }
 
+// Over the whole period; nothing where fewer than two sensors carry a measurement.
+std::optional<SensorFit> fit_of(const StandTables& t) {
+  const StandVariable* measured = t.find(StandTarget::kSensor, "measured_pacl");
+  if (!measured) return std::nullopt;
+  std::vector<double> there, modelled;
+  for (std::size_t s = 0; s < measured->value.size(); ++s) {
+    if (std::isnan(measured->value[s])) continue;
+    there.push_back(measured->value[s]);
+    modelled.push_back(value_at(t, StandTarget::kSensor, "pacl_total", s));
+  }
+  if (there.size() < 2) return std::nullopt;
+  return sensor_fit(modelled, there);
+}
+
 void print_sensor(const StandTables& t, std::size_t s) {
   const StandVariable& pacl = *t.find(StandTarget::kSensor, "pacl_total");
   const std::string& name = t.sensors[s].sensor.name;
   std::printf("  %-18s %6.1f +- %4.1f", name.empty() ? std::to_string(s + 1).c_str() : name.c_str(),
               100 * pacl.value[s], 100 * pacl.standard_error[s]);
-  if (t.sensors[s].pacl)
-    std::printf("  %9.1f %+11.1f", 100 * *t.sensors[s].pacl, 100 * (pacl.value[s] - *t.sensors[s].pacl));
+  const double measured = value_at(t, StandTarget::kSensor, "measured_pacl", s);
+  if (!std::isnan(measured)) std::printf("  %9.1f %+11.1f", 100 * measured, 100 * (pacl.value[s] - measured));
   std::printf("\n");
 }
 
-void print_sensors(const StandStudy& study, const StandTables& t) {
+void print_fit(const SensorFit& fit) {
+  std::printf("measured     %zu sensors: RMSE %.3f, bias %+.3f (modelled - measured)", fit.sensors, fit.rmse,
+              fit.bias);
+  if (std::isnan(fit.correlation))
+    std::printf("; no correlation (values without spread)\n");
+  else
+    std::printf(", correlation %.2f\n", fit.correlation);
+}
+
+void print_sensors(const StandTables& t) {
   if (!t.find(StandTarget::kSensor)) return;
+  const bool measured = t.find(StandTarget::kSensor, "measured_pacl") != nullptr;
   std::printf("  %-18s %14s%s   (%% of above-canopy light)\n", "sensor", "modelled",
-              study.fit ? "   measured  difference" : "");
+              measured ? "   measured  difference" : "");
   for (std::size_t s = 0; s < std::min(t.sensors.size(), kMostSensors); ++s) print_sensor(t, s);
   if (t.sensors.size() > kMostSensors)
     std::printf("  ... and %zu more in the files\n", t.sensors.size() - kMostSensors);
-  if (!study.fit) return;
-  std::printf("measured     %zu sensors: RMSE %.3f, bias %+.3f (modelled - measured)", study.fit->sensors,
-              study.fit->rmse, study.fit->bias);
-  if (std::isnan(study.fit->correlation))
-    std::printf("; no correlation (values without spread)\n");
-  else
-    std::printf(", correlation %.2f\n", study.fit->correlation);
+  if (const auto fit = fit_of(t)) print_fit(*fit);
 }
 
 void print_making(const Provenance& p) {
@@ -115,11 +133,11 @@ void print_making(const Provenance& p) {
 
 }  // namespace
 
-void print_stand(const StandStudy& study, const StandTables& tables, const Forest& forest) {
-  print_header(tables, forest);
+void print_stand(const StandTables& tables, const std::string& name) {
+  print_header(tables, name);
   print_plot(tables);
   print_intervals(tables);
-  print_sensors(study, tables);
+  print_sensors(tables);
   print_making(tables.provenance);
 }
 

@@ -103,6 +103,9 @@ TEST(StandCommand, WritesEverythingAskedForAndSaysWhatAPersonWantsToKnow) {
   EXPECT_EQ(read.trees.size(), 4u);
   EXPECT_EQ(read.intervals.size(), 3u);
   EXPECT_NEAR(read.map.size_m().x, 10, 1e-9);
+  const Ran info = run("info " + out("s.nc"));
+  EXPECT_EQ(info.code, 0);
+  EXPECT_NE(info.text.find("measured     2 sensors: RMSE"), std::string::npos) << info.text;
 }
 
 TEST(StandCommand, TakesAForestFromAFile) {
