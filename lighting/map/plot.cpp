@@ -1,29 +1,13 @@
 #include "lighting/map/plot.h"
 
-#include <spawn.h>
-#include <sys/wait.h>
-
-#include <cerrno>
 #include <cmath>
 #include <sstream>
 
+#include "lighting/map/gnuplot.h"
 #include "sim/base/error.h"
-#include "sim/base/pending_file.h"
-
-extern char** environ;
 
 namespace sunfleck {
 namespace {
-
-// Text in gnuplot's double quotes, without its enhanced mark-up.
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += c == '\n' ? ' ' : c;
-  }
-  return out + "\"";
-}
 
 const char* style_words(const PlotSeries& series) {
   if (!series.y_error.empty()) return "with yerrorbars pointtype 7 pointsize 0.7";
@@ -49,18 +33,25 @@ void check(const PlotPage& page, const std::filesystem::path& path) {
   if (page.panels.empty() || page.columns < 1) throw_invalid("plot", "has no panel", "at least one");
   for (const PlotPanel& panel : page.panels)
     for (const PlotSeries& s : panel.series)
-      if (s.x.size() != s.y.size() || (!s.y_error.empty() && s.y_error.size() != s.y.size()))
+      if (s.x.size() != s.y.size() || (!s.y_error.empty() && s.y_error.size() != s.y.size()) ||
+          (!s.labels.empty() && s.labels.size() != s.y.size()))
         throw_invalid("plot '" + panel.title + "', series '" + s.name + "'", "x and y differ in length",
                       "one y for every x");
 }
 
 void write_axis(std::ostream& out, const char* name, const PlotAxis& axis) {
-  out << "set " << name << "label " << quoted(axis.label) << "\n";
+  out << "set " << name << "label " << gnuplot_quoted(axis.label) << "\n";
   out << (axis.scale == AxisScale::kLog ? "set logscale " : "unset logscale ") << name << "\n";
   if (axis.from < axis.to)
     out << "set " << name << "range [" << axis.from << ":" << axis.to << "]\n";
   else
     out << "set " << name << "range [*:*]\n";
+  out << "set " << name << "tics autofreq norotate\n";
+  if (axis.ticks.empty()) return;
+  out << "set " << name << "tics (";
+  for (std::size_t i = 0; i < axis.ticks.size(); ++i)
+    out << (i == 0 ? "" : ", ") << gnuplot_quoted(axis.ticks[i].second) << ' ' << axis.ticks[i].first;
+  out << ")\n";
 }
 
 void write_data(std::ostream& out, const std::string& block, const PlotSeries& series) {
@@ -72,6 +63,8 @@ void write_data(std::ostream& out, const std::string& block, const PlotSeries& s
     }
     out << series.x[i] << ' ' << series.y[i];
     if (!series.y_error.empty()) out << ' ' << series.y_error[i];
+    if (!series.labels.empty())
+      out << ' ' << gnuplot_quoted(series.labels[i].empty() ? " " : series.labels[i]);
     out << "\n";
   }
   out << "EOD\n";
@@ -82,20 +75,23 @@ void write_panel(std::ostream& out, const PlotPanel& panel, std::size_t number) 
   write_axis(out, "y", panel.y);
   out << "unset label\n";
   for (std::size_t i = 0; i < panel.remarks.size(); ++i)
-    out << "set label " << quoted(panel.remarks[i]) << " at graph 0.02,"
+    out << "set label " << gnuplot_quoted(panel.remarks[i]) << " at graph 0.02,"
         << 0.96 - 0.05 * static_cast<double>(i) << " font \",9\"\n";
-  out << "set title " << quoted(panel.title) << "\n";
+  out << "set title " << gnuplot_quoted(panel.title) << "\n";
   std::ostringstream plot;
   for (std::size_t s = 0; s < panel.series.size(); ++s) {
     if (panel.series[s].x.empty()) continue;
     const std::string block = "$p" + std::to_string(number) + "s" + std::to_string(s);
     write_data(out, block, panel.series[s]);
     plot << (plot.str().empty() ? "plot " : ", ") << block << " " << style_words(panel.series[s]);
-    if (!panel.series[s].colour.empty()) plot << " linecolor rgb " << quoted(panel.series[s].colour);
+    if (!panel.series[s].colour.empty()) plot << " linecolor rgb " << gnuplot_quoted(panel.series[s].colour);
     if (panel.series[s].name.empty())
       plot << " notitle";
     else
-      plot << " title " << quoted(panel.series[s].name);
+      plot << " title " << gnuplot_quoted(panel.series[s].name);
+    if (!panel.series[s].labels.empty())
+      plot << ", " << block << " using 1:2:" << (panel.series[s].y_error.empty() ? 3 : 4)
+           << " with labels left offset 0.8,0.4 font \",8\" textcolor rgb '#5d6b64' notitle";
   }
   if (plot.str().empty()) plot << "plot NaN notitle";
   out << plot.str() << "\n";
@@ -107,7 +103,7 @@ std::string script_of(const PlotPage& page, const std::filesystem::path& picture
   out.precision(10);
   out << "set terminal " << (svg ? "svg noenhanced background rgb 'white'" : "pngcairo noenhanced")
       << " size " << page.columns * page.panel_width_px << "," << rows * page.panel_height_px
-      << " font \"sans,11\"\nset output " << quoted(picture.string())
+      << " font \"sans,11\"\nset output " << gnuplot_quoted(picture.string())
       << "\nset encoding utf8\nset key outside right top vertical Left reverse samplen 1 font \",9\"\n"
       << "set grid linecolor rgb '#dddddd'\nset border 3\nset tics nomirror\n"
       << "set multiplot layout " << rows << "," << page.columns << "\n";
@@ -116,35 +112,13 @@ std::string script_of(const PlotPage& page, const std::filesystem::path& picture
   return out.str();
 }
 
-// Runs gnuplot on a script file; its exit code, -1 where it could not be started.
-int run_gnuplot(const std::filesystem::path& script) {
-  std::string program = "gnuplot", file = script.string();
-  char* arguments[] = {program.data(), file.data(), nullptr};
-  pid_t child = 0;
-  if (posix_spawnp(&child, "gnuplot", nullptr, nullptr, arguments, environ) != 0) return -1;
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
-}
-
 }  // namespace
 
 void draw_plots(const PlotPage& page, const std::filesystem::path& path) {
   check(page, path);
-  PendingFile picture(path);
-  // The script stands beside the picture while gnuplot reads it and is never renamed into place.
-  const std::filesystem::path script_target = path.string() + ".gnuplot";
-  const PendingFile script(script_target);
-  write_whole_file(script.path(), script_of(page, picture.path(), path.extension() == ".svg"));
-  const int code = run_gnuplot(script.path());
-  if (code < 0 || code == 127)
-    throw Error(ErrorKind::kInputOutput, path.string(), "gnuplot cannot be started",
-                "install the Debian package gnuplot-nox");
-  if (code != 0)
-    throw Error(ErrorKind::kInputOutput, path.string(), "gnuplot ended with " + std::to_string(code),
-                "see what it printed above");
-  picture.commit();
+  draw_by_gnuplot(path, [&](const std::filesystem::path& picture) {
+    return script_of(page, picture, path.extension() == ".svg");
+  });
 }
 
 }  // namespace sunfleck

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sunfleck {
@@ -10,11 +11,12 @@ namespace sunfleck {
 enum class PlotStyle { kPoints, kLines, kLinesPoints, kSteps, kBoxes };
 
 struct PlotSeries {
-  std::string name;  // for the key; empty: none
+  std::string name = {};  // for the key; empty: none
   PlotStyle style = PlotStyle::kLinesPoints;
-  std::vector<double> x = {}, y = {};  // same length; values that are not finite leave a gap
-  std::vector<double> y_error = {};    // half height of the error bars; empty: none
-  std::string colour = {};             // "#rrggbb"; empty: the next of a palette
+  std::vector<double> x = {}, y = {};    // same length; values that are not finite leave a gap
+  std::vector<double> y_error = {};      // half height of the error bars; empty: none
+  std::string colour = {};               // "#rrggbb"; empty: the next of a palette
+  std::vector<std::string> labels = {};  // beside the points; empty: none
 };
 
 enum class AxisScale { kLinear, kLog };
@@ -22,7 +24,8 @@ enum class AxisScale { kLinear, kLog };
 struct PlotAxis {
   std::string label;  // with unit
   AxisScale scale = AxisScale::kLinear;
-  double from = 0, to = 0;  // equal: chosen from the values
+  double from = 0, to = 0;                                 // equal: chosen from the values
+  std::vector<std::pair<double, std::string>> ticks = {};  // place and label; empty: numbers
 };
 
 struct PlotPanel {

@@ -7,8 +7,9 @@
 #include <cmath>
 #include <vector>
 
-#include "sim/base/pending_file.h"
+#include "lighting/render/photograph_file.h"
 #include "lighting/render/render.h"
+#include "sim/base/pending_file.h"
 
 namespace sunfleck {
 namespace {
@@ -63,6 +64,15 @@ std::uint8_t srgb_byte(double linear) {
 }
 
 }  // namespace
+
+void save_png(const HemisphericalPhotograph& photograph, const std::filesystem::path& path) {
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(photograph.sky.size());
+  for (const float share : photograph.sky)
+    bytes.push_back(static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(share, 0.0f, 1.0f))));
+  const OIIO::ImageSpec spec(photograph.pixels, photograph.pixels, 1, OIIO::TypeDesc::UINT8);
+  write_pixels(path, "png", spec, OIIO::TypeDesc::UINT8, bytes.data());
+}
 
 void save_exr(const Image& image, const std::filesystem::path& path) {
   OIIO::ImageSpec spec(image.width_px, image.height_px, kExrChannels, OIIO::TypeDesc::FLOAT);

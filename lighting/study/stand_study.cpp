@@ -86,6 +86,8 @@ StandEngine chosen_engine(const Forest& forest, const StandStudySpec& spec) {
 void add_open_light(const IntervalWeights& weights, StandStudy& study) {
   for (std::size_t i = 0; i < weights.intervals.size(); ++i) {
     study.intervals.push_back(weights.intervals[i].label);
+    study.interval_begin_s.push_back(weights.intervals[i].begin_s);
+    study.interval_end_s.push_back(weights.intervals[i].end_s);
     study.direct_horizontal_mj_m2.push_back(kMjPerJ * weights.direct_horizontal_j_m2[i]);
     study.diffuse_horizontal_mj_m2.push_back(kMjPerJ * weights.diffuse_horizontal_j_m2[i]);
   }

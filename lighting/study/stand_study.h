@@ -66,6 +66,7 @@ struct StandStudy {
   std::optional<LargeStandLight> world;     // by boxes
   std::vector<double> direct_horizontal_mj_m2, diffuse_horizontal_mj_m2;  // open: period first, then parts
   std::vector<std::string> intervals;                                     // the same
+  std::vector<double> interval_begin_s, interval_end_s;  // the same: seconds since 2000-01-01T00:00 UTC
   std::optional<SensorFit> fit;  // where at least two sensors carry a measurement
   Provenance provenance;
 };

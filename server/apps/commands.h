@@ -32,6 +32,18 @@ struct RenderOptions {
 };
 void run_render(const RenderOptions& options, const RunControl& control);
 
+struct StandOptions {
+  std::filesystem::path scene, forest, netcdf, csv, report, pictures, photographs, configs;
+  int photograph_px = 600;
+};
+void run_stand(const StandOptions& options, const RunControl& control);
+
+struct InventoryOptions {
+  std::filesystem::path file, plot, configs;
+};
+// Prints every problem; throws Error(kInvalidInput) at the end if there was an error among them.
+void run_inventory_check(const InventoryOptions& options);
+
 struct InfoOptions {
   std::filesystem::path file;
 };

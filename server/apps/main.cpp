@@ -62,8 +62,44 @@ void add_render(CLI::App& app, RenderOptions& o) {
       "  sunfleck render stand.vdb --light-map light.nc --scene scene.toml --exr layers.exr");
 }
 
+void add_stand(CLI::App& app, StandOptions& o) {
+  CLI::App* c = app.add_subcommand(
+      "stand", "Light in a stand over a season: trees, ground, layers, sensors; tables, maps and a report");
+  c->add_option("scene", o.scene, "Scene file (TOML) with [stand_light] and, without --forest, [forest]")
+      ->required();
+  c->add_option("--forest", o.forest, "Forest (.vdb) to use instead of growing the scene's");
+  c->add_option("--netcdf", o.netcdf, "Everything in one file for xarray and R (.nc)");
+  c->add_option("--csv", o.csv, "Folder for trees.csv, sensors.csv, ground.csv, layers.csv, plot.csv");
+  c->add_option("--report", o.report, "One page to read in a browser (.html)");
+  c->add_option("--pictures", o.pictures, "Folder for ground map, profile, season, scatter (.png)");
+  c->add_option("--photographs", o.photographs, "Folder for a hemispherical photograph per sensor (.png)");
+  c->add_option("--photograph-px", o.photograph_px, "Edge of the photographs in pixels")
+      ->capture_default_str()
+      ->check(CLI::Range(8, 8192));
+  c->add_option("--configs", o.configs, "Folder with species/ and grammars/");
+  c->footer(
+      "Examples:\n  sunfleck stand configs/examples/stand.toml --report report.html\n"
+      "  sunfleck stand stand.toml --netcdf light.nc --csv tables --photographs photographs\n"
+      "  sunfleck stand stand.toml --forest stand.vdb --netcdf light.nc");
+}
+
+void add_inventory(CLI::App& app, InventoryOptions& o) {
+  CLI::App* inventory = app.add_subcommand("inventory", "Look at an inventory before anything runs");
+  inventory->require_subcommand(1);
+  CLI::App* c = inventory->add_subcommand("check", "List every problem of a tree table with row and remedy");
+  c->add_option("file", o.file, "Tree table (CSV)")->required();
+  c->add_option("--plot", o.plot, "Outline of the plot (CSV with columns x, y): names trees outside");
+  c->add_option("--configs", o.configs, "Folder with species/");
+  const char* examples =
+      "Examples:\n  sunfleck inventory check trees.csv\n"
+      "  sunfleck inventory check trees.csv --plot plot_polygon.csv\n"
+      "Exit code: 0 nothing or only warnings, 2 errors.";
+  inventory->footer(examples);
+  c->footer(examples);
+}
+
 void add_files(CLI::App& app, InfoOptions& info, ImportOptions& in, ExportOptions& out) {
-  CLI::App* c = app.add_subcommand("info", "Say what is in a forest (.vdb) or light map (.nc)");
+  CLI::App* c = app.add_subcommand("info", "Say what is in a forest (.vdb), light map or stand study (.nc)");
   c->add_option("file", info.file, "File to describe")->required();
   c->footer("Examples:\n  sunfleck info stand.vdb\n  sunfleck info light.nc");
 
@@ -201,6 +237,8 @@ int run(int argc, char** argv) {
   GrowOptions grow;
   LightOptions light;
   RenderOptions render;
+  StandOptions stand;
+  InventoryOptions inventory;
   InfoOptions info;
   ImportOptions import_options;
   ExportOptions export_options;
@@ -210,6 +248,8 @@ int run(int argc, char** argv) {
   add_grow(app, grow);
   add_light(app, light);
   add_render(app, render);
+  add_stand(app, stand);
+  add_inventory(app, inventory);
   add_service(app, serve, client);
   add_files(app, info, import_options, export_options);
   add_bench(app, bench);
@@ -226,6 +266,8 @@ int run(int argc, char** argv) {
     if (command == "grow") return run_grow(grow, control);
     if (command == "light") return run_light(light, control);
     if (command == "render") return run_render(render, control);
+    if (command == "stand") return run_stand(stand, control);
+    if (command == "inventory") return run_inventory_check(inventory);
     if (command == "info") return run_info(info);
     if (command == "import") return run_import(import_options);
     if (command == "export") return run_export(export_options);

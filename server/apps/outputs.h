@@ -10,7 +10,7 @@ namespace sunfleck {
 struct Output {
   std::string option;
   std::filesystem::path path;  // empty: not asked for
-  std::string extension;       // that it must have
+  std::string extension;       // that it must have; empty: a folder, made where it is missing
 };
 
 // Throws Error(kInvalidInput) naming the option: nothing asked for at all, a wrong extension, two outputs of

@@ -5,9 +5,11 @@
 #include <sstream>
 
 #include "lighting/map/light_map_file.h"
+#include "lighting/map/stand_netcdf.h"
 #include "server/apps/commands.h"
 #include "server/apps/outputs.h"
 #include "server/apps/scene_file.h"
+#include "server/apps/stand_summary.h"
 #include "server/apps/summary.h"
 #include "server/apps/terminal.h"
 #include "sim/base/error.h"
@@ -133,6 +135,8 @@ void export_trees(const Forest& forest, const std::filesystem::path& path) {
 }  // namespace
 
 void run_info(const InfoOptions& o) {
+  if (o.file.extension() == ".nc" && is_stand_netcdf(o.file))
+    return print_stand(load_stand_netcdf(o.file), o.file.stem().string());
   if (o.file.extension() == ".nc") return print_light_file(o.file);
   print_forest_file(o.file);
 }

@@ -38,6 +38,7 @@ const std::map<std::string, int>& ranks() {
                                                    {"lighting/map", 17},
                                                    {"lighting/render", 18},
                                                    {"lighting/bench", 19},
+                                                   {"lighting/report", 19},
                                                    {"server/convert", 20},
                                                    {"server/jobs", 21},
                                                    {"server/client", 22},
