@@ -38,14 +38,7 @@ void fill_bands(const LightRequest& request, v1::LightSpec& message) {
     band.set_diffuse_horizontal_w_m2(request.light.bands[b].diffuse_horizontal_w_m2);
   }
   for (const OpticsOverride& from : request.optics.overrides) {
-    v1::OpticsOverride& to = *message.add_overrides();
-    to.set_material(from.material);
-    to.set_band(from.band);
-    to.set_leaf_reflectance_front(from.optics.leaf.reflectance_front);
-    to.set_leaf_reflectance_back(from.optics.leaf.reflectance_back);
-    to.set_leaf_transmittance_front(from.optics.leaf.transmittance_front);
-    to.set_leaf_transmittance_back(from.optics.leaf.transmittance_back);
-    to.set_bark_reflectance(from.optics.bark_reflectance);
+    fill_message(from, *message.add_overrides());
   }
 }
 
@@ -100,6 +93,16 @@ void fill_probes(const ProbePlan& plan, v1::ProbeOptions& message) {
 }
 
 }  // namespace
+
+void fill_message(const OpticsOverride& from, v1::OpticsOverride& to) {
+  to.set_material(from.material);
+  to.set_band(from.band);
+  to.set_leaf_reflectance_front(from.optics.leaf.reflectance_front);
+  to.set_leaf_reflectance_back(from.optics.leaf.reflectance_back);
+  to.set_leaf_transmittance_front(from.optics.leaf.transmittance_front);
+  to.set_leaf_transmittance_back(from.optics.leaf.transmittance_back);
+  to.set_bark_reflectance(from.optics.bark_reflectance);
+}
 
 void fill_message(const LightRequest& request, v1::LightSpec& message) {
   message.set_method(message_method(request.method));

@@ -79,23 +79,6 @@ void check_face(const std::string& field, const char* face, double reflectance, 
   }
 }
 
-void read_override(const v1::OpticsOverride& message, const std::string& field,
-                   const std::set<std::string>& bands, Violations& violations, LightRequest& request) {
-  violations.text(field + ".material", message.material(), 200);
-  if (!bands.contains(message.band())) {
-    violations.add(field + ".band",
-                   "must be one of the request's bands, got '" + clipped(message.band()) + "'");
-  }
-  check_face(field, "front", message.leaf_reflectance_front(), message.leaf_transmittance_front(),
-             violations);
-  check_face(field, "back", message.leaf_reflectance_back(), message.leaf_transmittance_back(), violations);
-  violations.number(field + ".bark_reflectance", message.bark_reflectance(), 0, 1);
-  const LeafOptics leaf{message.leaf_reflectance_front(), message.leaf_reflectance_back(),
-                        message.leaf_transmittance_front(), message.leaf_transmittance_back()};
-  request.optics.overrides.push_back(
-      {message.material(), message.band(), {leaf, message.bark_reflectance()}});
-}
-
 void read_bands(const v1::LightSpec& message, const std::string& field, const Limits& limits,
                 Violations& violations, LightRequest& request) {
   const auto size = [](int n) { return static_cast<std::size_t>(n); };
@@ -108,7 +91,8 @@ void read_bands(const v1::LightSpec& message, const std::string& field, const Li
     read_band(message.bands(i), at(field + ".bands", size(i)), names, violations, request);
   }
   for (int i = 0; i < message.overrides_size(); ++i) {
-    read_override(message.overrides(i), at(field + ".overrides", size(i)), names, violations, request);
+    request.optics.overrides.push_back(
+        override_from_message(message.overrides(i), at(field + ".overrides", size(i)), names, violations));
   }
 }
 
@@ -254,6 +238,22 @@ Skipping skipping_from_message(v1::Skipping skip, const std::string& field, Viol
 }
 
 }  // namespace
+
+OpticsOverride override_from_message(const v1::OpticsOverride& message, const std::string& field,
+                                     const std::set<std::string>& bands, Violations& violations) {
+  violations.text(field + ".material", message.material(), 200);
+  if (!bands.contains(message.band())) {
+    violations.add(field + ".band",
+                   "must be one of the request's bands, got '" + clipped(message.band()) + "'");
+  }
+  check_face(field, "front", message.leaf_reflectance_front(), message.leaf_transmittance_front(),
+             violations);
+  check_face(field, "back", message.leaf_reflectance_back(), message.leaf_transmittance_back(), violations);
+  violations.number(field + ".bark_reflectance", message.bark_reflectance(), 0, 1);
+  const LeafOptics leaf{message.leaf_reflectance_front(), message.leaf_reflectance_back(),
+                        message.leaf_transmittance_front(), message.leaf_transmittance_back()};
+  return {message.material(), message.band(), {leaf, message.bark_reflectance()}};
+}
 
 LightRequest light_request_from_message(const v1::LightSpec& message, const std::string& field,
                                         const Limits& limits, Violations& violations) {
