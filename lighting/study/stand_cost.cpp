@@ -45,7 +45,7 @@ double rays_row_bytes(const Targets& t) {
                         8 * t.sensors + 8 + 9 * t.bands);
 }
 
-// WorldLight of one interval.
+// LargeStandLight of one interval.
 double boxes_row_bytes(const Targets& t) { return kValueBytes * (3 * t.cells + 3 * t.trees + 3); }
 
 double boxes_bytes(const Forest& forest, const StandStudySpec& spec, const Targets& t) {

@@ -14,7 +14,7 @@ struct StandCost {
   StandEngine engine = StandEngine::kRays;
   std::size_t intervals = 1;  // besides the whole period
   double ground_cells = 0;    // of the map
-  double rays = 0;            // light on the stand; 0 for boxes
+  double rays = 0;            // light on the stand, at least; 0 for boxes
   // At most, beside the forest and the ray scene over it: responses to every direction (half of the sky's
   // bins count as visited by the sun), weights of every interval, the tables and one copy of them.
   double memory_bytes = 0;

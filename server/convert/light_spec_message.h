@@ -13,7 +13,7 @@ namespace sunfleck {
 namespace v1 {
 class LightSpec;
 class OpticsOverride;
-}
+}  // namespace v1
 
 // Checks every field; what is wrong is added to `violations` with paths that start with `field`.
 LightRequest light_request_from_message(const v1::LightSpec& message, const std::string& field,

@@ -159,8 +159,8 @@ void read_bands(const v1::StandLightSpec& message, const std::string& field, con
     violations.number(place + ".soil_albedo", spec.optics.soil_albedo.back(), 0, 1);
   }
   for (int i = 0; i < message.overrides_size(); ++i)
-    spec.optics.overrides.push_back(override_from_message(
-        message.overrides(i), at(field + ".overrides", size(i)), names, violations));
+    spec.optics.overrides.push_back(
+        override_from_message(message.overrides(i), at(field + ".overrides", size(i)), names, violations));
 }
 
 void read_map(const v1::StandLightSpec& message, const std::string& field, Violations& violations,
@@ -189,12 +189,14 @@ void read_cost(const v1::StandLightSpec& message, const std::string& field, Viol
   if (message.has_scattering()) spec.scattering = message.scattering();
   if (message.has_canopy_views()) spec.canopy_views = message.canopy_views();
   if (message.has_rays_per_cell()) spec.rays_per_cell = message.rays_per_cell();
+  if (message.has_tree_relative_error()) spec.tree_relative_error = message.tree_relative_error();
   if (message.has_sensor_sun_rays()) spec.sensor_sun_rays = message.sensor_sun_rays();
   if (message.has_sensor_sky_rays()) spec.sensor_sky_rays = message.sensor_sky_rays();
   if (message.has_patch_deg()) spec.patch_deg = message.patch_deg();
   if (message.has_bin_deg()) spec.bin_deg = message.bin_deg();
   if (message.has_seed()) spec.seed = message.seed();
   violations.number(field + ".rays_per_cell", spec.rays_per_cell, 1, 1e7);
+  violations.number(field + ".tree_relative_error", spec.tree_relative_error, 0, 1);
   violations.integer(field + ".sensor_sun_rays", spec.sensor_sun_rays, 1, 100'000);
   violations.integer(field + ".sensor_sky_rays", spec.sensor_sky_rays, 1, 100'000);
   violations.number(field + ".patch_deg", spec.patch_deg, 1, 30);

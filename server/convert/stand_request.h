@@ -32,5 +32,6 @@ void fill_message(const RadiationTable& table, const std::string& name, v1::Radi
 Violation violation_of(const Error& error, const StandStudySpec& spec, const std::string& field);
 
 void fill_message(const StandCost& cost, v1::StandLightCost& message);
+StandCost cost_from_message(const v1::StandLightCost& message);
 
 }  // namespace sunfleck

@@ -2,8 +2,8 @@
 #include <algorithm>
 
 #include "lighting/sky/utc_time.h"
-#include "server/convert/stand_request.h"
 #include "server/convert/light_spec_message.h"
+#include "server/convert/stand_request.h"
 #include "sunfleck/v1/light.pb.h"
 #include "sunfleck/v1/stand_light.pb.h"
 
@@ -123,6 +123,7 @@ void fill_message(const StandStudySpec& spec, v1::StandLightSpec& message) {
   message.set_scattering(spec.scattering);
   message.set_canopy_views(spec.canopy_views);
   message.set_rays_per_cell(spec.rays_per_cell);
+  message.set_tree_relative_error(spec.tree_relative_error);
   message.set_sensor_sun_rays(spec.sensor_sun_rays);
   message.set_sensor_sky_rays(spec.sensor_sky_rays);
   message.set_patch_deg(spec.patch_deg);
@@ -144,6 +145,17 @@ void fill_message(const StandCost& cost, v1::StandLightCost& message) {
   message.set_rays(cost.rays);
   message.set_predicted_memory_bytes(cost.memory_bytes);
   message.set_predicted_result_bytes(cost.result_bytes);
+}
+
+StandCost cost_from_message(const v1::StandLightCost& message) {
+  StandCost cost;
+  cost.engine = message.engine() == to_string(StandEngine::kBoxes) ? StandEngine::kBoxes : StandEngine::kRays;
+  cost.intervals = message.intervals();
+  cost.ground_cells = static_cast<double>(message.ground_cells());
+  cost.rays = message.rays();
+  cost.memory_bytes = message.predicted_memory_bytes();
+  cost.result_bytes = message.predicted_result_bytes();
+  return cost;
 }
 
 }  // namespace sunfleck
