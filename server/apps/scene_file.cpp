@@ -15,6 +15,7 @@ SceneFile read_scene_file(const fs::path& path) {
   SceneFile scene;
   if (const auto table = root.table_if("forest")) scene.forest = read_forest_spec(*table);
   if (const auto table = root.table_if("light")) scene.light = read_light_request(*table);
+  if (const auto table = root.table_if("stand_light")) scene.stand_light = read_stand_study(*table);
   if (const auto table = root.table_if("camera")) scene.camera = read_camera(*table);
   root.reject_unread();
   return scene;

@@ -1,4 +1,4 @@
-// A scene file: [forest], [light] and [camera] in one TOML.
+// A scene file: [forest], [light], [stand_light] and [camera] in one TOML.
 #pragma once
 
 #include <filesystem>
@@ -6,6 +6,7 @@
 
 #include "lighting/plan/light_request.h"
 #include "lighting/render/render.h"
+#include "lighting/study/stand_study.h"
 #include "sim/forest/forest_spec.h"
 
 namespace sunfleck {
@@ -13,6 +14,7 @@ namespace sunfleck {
 struct SceneFile {
   std::optional<ForestSpec> forest;
   std::optional<LightRequest> light;
+  std::optional<StandStudySpec> stand_light;
   std::optional<Camera> camera;
 };
 

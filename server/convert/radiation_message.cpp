@@ -9,7 +9,8 @@ namespace {
 constexpr double kMost_j_m2 = 1e15;
 
 void add(const Error& error, Violations& violations) {
-  violations.add(error.where(), error.problem() + " (" + error.remedy() + ")");
+  Violation violation = violation_of(error);
+  violations.add(std::move(violation.field), std::move(violation.description));
 }
 
 RadiationPer per_of(const v1::RadiationRow& row) {

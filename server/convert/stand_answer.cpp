@@ -9,6 +9,21 @@
 namespace sunfleck {
 namespace {
 
+// A member that is added to these must get its name in stand_fields.h.
+constexpr std::size_t kTable = sizeof(IntervalTable), kVector = sizeof(std::vector<double>);
+static_assert(sizeof(SensorTables) == 8 * kTable + 3 * kVector);
+static_assert(sizeof(GroundTables) == 3 * kTable + kVector);
+static_assert(sizeof(TreeTables) == 4 * kTable + kVector);
+static_assert(sizeof(LayerTables) == sizeof(double) + 3 * kTable + 2 * kVector);
+static_assert(sizeof(PlotBand) == sizeof(std::string) + 9 * kVector);
+static_assert(sizeof(PlotTables) == sizeof(double) + 10 * kVector);
+static_assert(sizeof(StandLight) == 4 * kVector + sizeof(StandGround) + sizeof(SensorTables) +
+                                        sizeof(GroundTables) + sizeof(TreeTables) + sizeof(LayerTables) +
+                                        sizeof(PlotTables));
+static_assert(sizeof(LargeStandLight) == 4 * kVector + sizeof(StandGround) + 6 * kTable);
+static_assert(sizeof(SensorCanopy) ==
+              kCanopyNumbers.size() * sizeof(double) + kVector + 5 * kRingNumbers.size() * sizeof(double));
+
 template <class T>
 std::span<const std::byte> bytes_of(const std::vector<T>& values) {
   return std::as_bytes(std::span<const T>(values));

@@ -28,6 +28,9 @@ RadiationTable radiation_from_message(const v1::RadiationTable& message, const s
                                       Violations& violations);
 void fill_message(const RadiationTable& table, const std::string& name, v1::RadiationTable& message);
 
+// "stand_light.radiation.csv:3, column x" is field "stand_light.radiation.csv" and a description that begins
+// with "line 3, column x: ".
+Violation violation_of(const Error& error);
 // What lighting says of a request (sensor in a stem, month without radiation) at the request's own field.
 Violation violation_of(const Error& error, const StandStudySpec& spec, const std::string& field);
 

@@ -88,18 +88,15 @@ void fill_map(const StandStudySpec& spec, v1::StandLightSpec& message) {
   message.mutable_map()->set_y_to_m(spec.map_hi_m->y);
 }
 
-// "sensors[3] (north), rest" -> "sensors[3]"; for lines of a CSV text the text itself.
-std::string plain_path(const std::string& where) { return where.substr(0, where.find_first_of(":, (")); }
-
-std::string field_of(const std::string& where, const StandStudySpec& spec, const std::string& field) {
-  const auto begins = [&](const char* with) { return where.rfind(with, 0) == 0; };
-  if (begins((field + ".").c_str())) return plain_path(where);
-  if (begins("sensors[")) return field + "." + plain_path(where);
-  if (begins("stand.")) return field + plain_path(where).substr(5);
+std::string field_of(const std::string& path, const StandStudySpec& spec, const std::string& field) {
+  const auto begins = [&](const std::string& with) { return path.rfind(with, 0) == 0; };
+  if (begins(field + ".")) return path;
+  if (begins("sensors[")) return field + "." + path;
+  if (begins("stand.")) return field + path.substr(5);
   if (begins("optics.")) return field + ".overrides";
   if (begins("forest") || begins("materials.")) return "scene";
   for (std::size_t b = 0; b < spec.optics.bands.size(); ++b)
-    if (where == "bands." + spec.optics.bands[b]) return at(field + ".bands", b);
+    if (path == "bands." + spec.optics.bands[b]) return at(field + ".bands", b);
   return field;
 }
 
@@ -131,11 +128,21 @@ void fill_message(const StandStudySpec& spec, v1::StandLightSpec& message) {
   message.set_seed(spec.seed);
 }
 
-Violation violation_of(const Error& error, const StandStudySpec& spec, const std::string& field) {
-  const std::string path = field_of(error.where(), spec, field);
-  const std::string place = path == error.where() ? "" : error.where() + ": ";
+Violation violation_of(const Error& error) {
+  const std::string& where = error.where();
+  const std::size_t end = where.find_first_of(":, (");
+  std::string place = end == std::string::npos ? "" : where.substr(end) + ": ";
+  if (place.rfind(":", 0) == 0) place = "line " + place.substr(1);
+  place.erase(0, place.find_first_not_of(", "));
   const std::string remedy = error.remedy().empty() ? "" : " (" + error.remedy() + ")";
-  return {path, place + error.problem() + remedy};
+  return {where.substr(0, end), place + error.problem() + remedy};
+}
+
+Violation violation_of(const Error& error, const StandStudySpec& spec, const std::string& field) {
+  Violation violation = violation_of(error);
+  const bool is_band = error.where().rfind("bands.", 0) == 0;  // whose name may have spaces
+  violation.field = field_of(is_band ? error.where() : violation.field, spec, field);
+  return violation;
 }
 
 void fill_message(const StandCost& cost, v1::StandLightCost& message) {
