@@ -94,6 +94,18 @@ void fill_probes(const ProbePlan& plan, v1::ProbeOptions& message) {
 
 }  // namespace
 
+v1::SkyModel message_sky(SkyModel sky) {
+  switch (sky) {
+    case SkyModel::kUniform:
+      return v1::SKY_MODEL_UNIFORM;
+    case SkyModel::kStandardOvercast:
+      return v1::SKY_MODEL_STANDARD_OVERCAST;
+    case SkyModel::kPerez:
+      return v1::SKY_MODEL_PEREZ;
+  }
+  return v1::SKY_MODEL_UNSPECIFIED;
+}
+
 void fill_message(const OpticsOverride& from, v1::OpticsOverride& to) {
   to.set_material(from.material);
   to.set_band(from.band);
@@ -112,8 +124,9 @@ void fill_message(const LightRequest& request, v1::LightSpec& message) {
   to_sun.set_y(request.light.to_sun.y);
   to_sun.set_z(request.light.to_sun.z);
   message.set_sun_half_angle_rad(request.light.sun_half_angle_rad);
-  message.set_sky(request.light.sky == SkyModel::kUniform ? v1::SKY_MODEL_UNIFORM
-                                                          : v1::SKY_MODEL_STANDARD_OVERCAST);
+  message.set_sky(message_sky(request.light.sky));
+  message.set_sky_clearness(request.light.sky_clearness);
+  message.set_sky_brightness(request.light.sky_brightness);
   fill_reference(request.reference, *message.mutable_reference());
   message.mutable_spp()->set_sample_directions(request.spp.sample_directions);
   message.mutable_spp()->set_map_resolution(request.spp.map_resolution);

@@ -46,6 +46,8 @@ SkyModel sky_from_message(v1::SkyModel sky, const std::string& field, Violations
       return SkyModel::kUniform;
     case v1::SKY_MODEL_STANDARD_OVERCAST:
       return SkyModel::kStandardOvercast;
+    case v1::SKY_MODEL_PEREZ:
+      return SkyModel::kPerez;
     default:
       break;
   }
@@ -128,6 +130,15 @@ void read_sun(const v1::LightSpec& message, const std::string& field, Violations
       break;
     }
   }
+}
+
+void read_sky(const v1::LightSpec& message, const std::string& field, Violations& violations,
+              Illumination& light) {
+  light.sky = sky_from_message(message.sky(), field + ".sky", violations);
+  if (message.has_sky_clearness()) light.sky_clearness = message.sky_clearness();
+  if (message.has_sky_brightness()) light.sky_brightness = message.sky_brightness();
+  violations.number(field + ".sky_clearness", light.sky_clearness, 1, 1000);
+  violations.number(field + ".sky_brightness", light.sky_brightness, 0, 1);
 }
 
 void read_reference(const v1::ReferenceOptions& message, const std::string& field, Violations& violations,
@@ -261,7 +272,7 @@ LightRequest light_request_from_message(const v1::LightSpec& message, const std:
   request.method = method_from_message(message.method(), field + ".method", violations);
   read_bands(message, field, limits, violations, request);
   read_sun(message, field, violations, request.light);
-  request.light.sky = sky_from_message(message.sky(), field + ".sky", violations);
+  read_sky(message, field, violations, request.light);
   read_reference(message.reference(), field + ".reference", violations, request.reference);
   request.reference.memory_limit_bytes = limits.request_memory_bytes;
   read_closed_forms(message, field, violations, request);

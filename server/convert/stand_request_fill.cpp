@@ -10,18 +10,6 @@
 namespace sunfleck {
 namespace {
 
-v1::SkyModel message_sky(SkyModel sky) {
-  switch (sky) {
-    case SkyModel::kUniform:
-      return v1::SKY_MODEL_UNIFORM;
-    case SkyModel::kStandardOvercast:
-      return v1::SKY_MODEL_STANDARD_OVERCAST;
-    case SkyModel::kPerez:
-      return v1::SKY_MODEL_PEREZ;
-  }
-  return v1::SKY_MODEL_UNSPECIFIED;
-}
-
 v1::IntervalKind message_intervals(IntervalKind kind) {
   switch (kind) {
     case IntervalKind::kPeriod:
