@@ -109,6 +109,7 @@ ResponseTable sensor_response(const StandScene& scene, const std::vector<LightSe
     const int count = cos_edge < 1.0 ? rays : 1;
     table.quantum[d] = 1.0 / count;
     for (std::size_t s = 0; s < sensors.size(); ++s) {
+      control.check();
       const Vec3 point = sensor_point_m(sensors[s], scene);
       RandomStream random(mix_seed(seed, d), s, RandomPurpose::kSensorRays);
       const double first_x = random.uniform(), first_y = random.uniform();

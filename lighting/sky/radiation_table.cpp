@@ -156,6 +156,13 @@ void set_ends(std::vector<RadiationRow>& rows) {
   for (RadiationRow& row : rows) row.end_s = row.begin_s + step_s;
 }
 
+void complete(RadiationTable& table) {
+  if (table.rows.empty())
+    throw_invalid(table.name, "the table has no rows", "at least one month, day or time");
+  sort_rows(table.rows);
+  if (table.per == RadiationPer::kTime) set_ends(table.rows);
+}
+
 }  // namespace
 
 RadiationTable parse_radiation(std::string_view text, const std::string& name) {
@@ -163,7 +170,6 @@ RadiationTable parse_radiation(std::string_view text, const std::string& name) {
   const Layout layout = layout_of(csv, name);
   RadiationTable table{
       name, layout.per, layout.global.unit.is_power, layout.global.unit.name, layout.global.unit.in_si, {}};
-  if (csv.rows() == 0) throw_invalid(name, "the table has no rows", "at least one month, day or time");
   for (std::size_t r = 0; r < csv.rows(); ++r) {
     RadiationRow row;
     row.where = csv.where(r, layout.global.index);
@@ -172,8 +178,14 @@ RadiationTable parse_radiation(std::string_view text, const std::string& name) {
     row.diffuse_fraction = read_diffuse_fraction(csv, r, layout, row.global);
     table.rows.push_back(std::move(row));
   }
-  sort_rows(table.rows);
-  if (table.per == RadiationPer::kTime) set_ends(table.rows);
+  complete(table);
+  return table;
+}
+
+RadiationTable radiation_table(const std::string& name, RadiationPer per, bool is_power,
+                               std::vector<RadiationRow> rows) {
+  RadiationTable table{name, per, is_power, is_power ? "w_m2" : "j_m2", 1.0, std::move(rows)};
+  complete(table);
   return table;
 }
 

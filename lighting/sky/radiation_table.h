@@ -50,4 +50,9 @@ struct RadiationTable {
 RadiationTable parse_radiation(std::string_view csv, const std::string& name);
 RadiationTable read_radiation(const std::filesystem::path& path);
 
+// For rows from anywhere else than CSV: put in the order of time, ends of kTime rows set. The same errors, at
+// the rows' own `where`; no rows: at `name`.
+RadiationTable radiation_table(const std::string& name, RadiationPer per, bool is_power,
+                               std::vector<RadiationRow> rows);
+
 }  // namespace sunfleck

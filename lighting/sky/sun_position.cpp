@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <initializer_list>
+#include <mutex>
 
 #include "sim/base/contract.h"
 #include "sim/base/error.h"
@@ -39,13 +40,28 @@ double delta_t_s(double utc_s) {
   return -20 + 32 * std::pow((year - 1820) / 100, 2) - 0.5628 * (2150 - year);
 }
 
+struct Ephemeris {
+  ln_helio_posn geometric{};
+  ln_nutation nutation{};
+};
+
+// libnova keeps what it answered last in static variables: one thread at a time may ask, and nutation is
+// asked for another year first, because one up to 0.1 days old would be given again and the answer depend on
+// the call before.
+Ephemeris ephemeris(double ephemeris_day) {
+  static std::mutex one_at_a_time;
+  const std::lock_guard lock(one_at_a_time);
+  Ephemeris e;
+  ln_get_solar_geom_coords(ephemeris_day, &e.geometric);
+  ln_get_nutation(ephemeris_day - 1000, &e.nutation);
+  ln_get_nutation(ephemeris_day, &e.nutation);
+  return e;
+}
+
 // [SPA] sec. 3.3 - 3.9.
 Geocentric geocentric_sun(double utc_s) {
   const double ephemeris_day = 2451545.0 + days_since_j2000(utc_s + delta_t_s(utc_s));
-  ln_helio_posn geometric{};
-  ln_get_solar_geom_coords(ephemeris_day, &geometric);
-  ln_nutation nutation{};
-  ln_get_nutation(ephemeris_day, &nutation);
+  const auto [geometric, nutation] = ephemeris(ephemeris_day);
   const double obliquity = radians_from_degrees(nutation.ecliptic + nutation.obliquity);
   const double aberration_deg = -20.4898 / 3600.0 / geometric.R;
   // libnova's place refers to ecliptic and equinox of J2000: precession brings it to those of date (Meeus

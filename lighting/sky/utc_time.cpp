@@ -178,4 +178,16 @@ std::string local_time_text(double utc_s, int offset_minutes) {
   return date_text(date_of_day(day)) + text + offset_text(offset_minutes);
 }
 
+std::string exact_time_text(double utc_s, int offset_minutes) {
+  const int day = local_day(utc_s, offset_minutes);
+  const double second_of_day = utc_s - day_begin_s(day, offset_minutes);
+  const int minute = static_cast<int>(std::floor(second_of_day / 60.0));
+  char time[32], second[64];
+  std::snprintf(time, sizeof time, "T%02d:%02d:", minute / 60, minute % 60);
+  const auto [end, code] =
+      std::to_chars(second, second + sizeof second, second_of_day - 60.0 * minute, std::chars_format::fixed);
+  if (code != std::errc()) return local_time_text(utc_s, offset_minutes);
+  return date_text(date_of_day(day)) + time + std::string(second, end) + offset_text(offset_minutes);
+}
+
 }  // namespace sunfleck

@@ -42,5 +42,7 @@ CivilDate parse_date(const std::string& text, const std::string& where);
 std::string date_text(const CivilDate& date);                   // "2024-06-21"
 std::string offset_text(int offset_minutes);                    // "Z", "+01:00"
 std::string local_time_text(double utc_s, int offset_minutes);  // "2024-06-21T13:30+01:00", to the minute
+// "2024-06-21T13:30:00.25+01:00": parse_zoned_time() gives the same number again.
+std::string exact_time_text(double utc_s, int offset_minutes);
 
 }  // namespace sunfleck

@@ -76,13 +76,6 @@ std::size_t cells_of(const Forest& forest, double cell_m) {
   return static_cast<std::size_t>(std::ceil(size.x / cell_m) * std::ceil(size.y / cell_m));
 }
 
-StandEngine chosen_engine(const Forest& forest, const StandStudySpec& spec) {
-  if (spec.engine != StandEngine::kAuto) return spec.engine;
-  const bool small =
-      forest.instances.size() <= kMostTreesByRays && cells_of(forest, spec.ground_cell_m) <= kMostCellsByRays;
-  return small ? StandEngine::kRays : StandEngine::kBoxes;
-}
-
 void add_open_light(const IntervalWeights& weights, StandStudy& study) {
   for (std::size_t i = 0; i < weights.intervals.size(); ++i) {
     study.intervals.push_back(weights.intervals[i].label);
@@ -195,6 +188,13 @@ std::string to_string(StandEngine engine) {
   return kNames[static_cast<int>(engine)];
 }
 
+StandEngine chosen_engine(const Forest& forest, const StandStudySpec& spec) {
+  if (spec.engine != StandEngine::kAuto) return spec.engine;
+  const bool small =
+      forest.instances.size() <= kMostTreesByRays && cells_of(forest, spec.ground_cell_m) <= kMostCellsByRays;
+  return small ? StandEngine::kRays : StandEngine::kBoxes;
+}
+
 SensorFit sensor_fit(const std::vector<double>& modelled, const std::vector<double>& measured) {
   SUNFLECK_EXPECTS(modelled.size() == measured.size() && !modelled.empty());
   const double n = static_cast<double>(modelled.size());
@@ -219,8 +219,8 @@ StandStudy run_stand_study(const Forest& forest, const StandStudySpec& spec, con
   if (forest.instances.empty()) throw_invalid("forest", "has no trees", "grow or read a forest with trees");
   StandStudy study;
   study.spec = spec;
-  const RadiationSeries series =
-      radiation_series(spec.place, spec.period, read_radiation(spec.radiation), 10, control);
+  const RadiationTable table = spec.radiation_table ? *spec.radiation_table : read_radiation(spec.radiation);
+  const RadiationSeries series = radiation_series(spec.place, spec.period, table, 10, control);
   SkyWeightOptions options;
   options.sky = spec.sky;
   options.patch_deg = spec.patch_deg;

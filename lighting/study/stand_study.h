@@ -30,7 +30,8 @@ std::string to_string(StandEngine engine);  // "auto", "rays", "boxes"
 struct StandStudySpec {
   Place place;
   TimeSpan period;
-  std::filesystem::path radiation;  // see lighting/sky/radiation_table.h
+  std::filesystem::path radiation;                // file, see lighting/sky/radiation_table.h
+  std::optional<RadiationTable> radiation_table;  // instead of the file; `radiation` is then its name only
   SkyModel sky = SkyModel::kStandardOvercast;
   IntervalKind intervals = IntervalKind::kMonth;  // besides the whole period
   std::vector<SensorRow> sensors;
@@ -67,9 +68,12 @@ struct StandStudy {
   std::vector<double> direct_horizontal_mj_m2, diffuse_horizontal_mj_m2;  // open: period first, then parts
   std::vector<std::string> intervals;                                     // the same
   std::vector<double> interval_begin_s, interval_end_s;  // the same: seconds since 2000-01-01T00:00 UTC
-  std::optional<SensorFit> fit;  // where at least two sensors carry a measurement
+  std::optional<SensorFit> fit;                          // where at least two sensors carry a measurement
   Provenance provenance;
 };
+
+// The engine of a study: kRays or kBoxes.
+StandEngine chosen_engine(const Forest& forest, const StandStudySpec& spec);
 
 // Throws Error for bad input (see the parts), kCancelled, kLimitExceeded.
 StandStudy run_stand_study(const Forest& forest, const StandStudySpec& spec, const RunControl& control);

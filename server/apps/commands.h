@@ -88,9 +88,9 @@ struct ServeOptions {
 void run_serve(const ServeOptions& options);
 
 struct ClientOptions {
-  std::string action;  // info, create, list, delete, light, render
+  std::string action;  // info, create, list, delete, light, stand, render
   std::string address, scene_name;
-  std::filesystem::path scene, netcdf, element_csv, tree_csv, png, exr, configs;
+  std::filesystem::path scene, netcdf, element_csv, tree_csv, json, png, exr, configs;
   std::string method;
 };
 void run_client(const ClientOptions& options, const RunControl& control);

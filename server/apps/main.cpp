@@ -141,9 +141,9 @@ void add_service(CLI::App& app, ServeOptions& serve, ClientOptions& client) {
   c->footer("Examples:\n  sunfleck serve\n  sunfleck serve --socket /run/user/1000/sunfleck.sock");
 
   c = app.add_subcommand("client", "Ask a server for what the other commands do");
-  c->add_option("action", client.action, "info, create, list, delete, light or render")
+  c->add_option("action", client.action, "info, create, list, delete, light, stand or render")
       ->required()
-      ->check(CLI::IsMember({"info", "create", "list", "delete", "light", "render"}));
+      ->check(CLI::IsMember({"info", "create", "list", "delete", "light", "stand", "render"}));
   c->add_option("--address", client.address, "unix:PATH or HOST:PORT")->required();
   c->add_option("--scene-file", client.scene, "Scene file (TOML)");
   c->add_option("--scene", client.scene_name, "Name the server gave a scene: scenes/...");
@@ -151,6 +151,7 @@ void add_service(CLI::App& app, ServeOptions& serve, ClientOptions& client) {
   c->add_option("-o,--output", client.netcdf, "Light map to write (.nc)");
   c->add_option("--csv", client.element_csv, "Table of all elements to write (.csv)");
   c->add_option("--tree-csv", client.tree_csv, "Table of all trees to write (.csv)");
+  c->add_option("--json", client.json, "Stand light to write, all tables (.json)");
   c->add_option("--png", client.png, "Picture to write (.png)");
   c->add_option("--exr", client.exr, "Layers to write (.exr)");
   c->add_option("--configs", client.configs, "Folder with species/ and grammars/");

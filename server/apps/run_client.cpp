@@ -9,6 +9,7 @@
 #include "server/apps/summary.h"
 #include "server/apps/terminal.h"
 #include "server/client/client.h"
+#include "server/client/stand_json.h"
 #include "sim/base/error.h"
 #include "sim/base/pending_file.h"
 
@@ -84,6 +85,31 @@ void fetch_light(const ClientOptions& o, Client& client, const RunControl& contr
     if (!path.empty()) std::printf("wrote        %s\n", path.c_str());
 }
 
+void print_stand(const StandStudy& study) {
+  std::printf("method       %s\n", study.provenance.method.c_str());
+  std::printf("intervals    %zu, %s\n", study.intervals.size(), study.intervals.front().c_str());
+  std::printf("open light   %.5g MJ m-2 direct, %.5g MJ m-2 diffuse\n", study.direct_horizontal_mj_m2.front(),
+              study.diffuse_horizontal_mj_m2.front());
+  if (study.period)
+    std::printf("leaf area    %.4g m2 per m2 of ground\n", study.period->plot.leaf_area_index);
+  if (study.fit)
+    std::printf("sensors      %zu measured: rmse %.4f, bias %+.4f, correlation %.3f\n", study.fit->sensors,
+                study.fit->rmse, study.fit->bias, study.fit->correlation);
+  for (const std::string& note : study.provenance.notes) std::printf("note         %s\n", note.c_str());
+}
+
+void fetch_stand(const ClientOptions& o, Client& client, const RunControl& control) {
+  check_outputs("client stand", {{"--json", o.json, ".json"}});
+  const SceneFile scene = required_scene_file(o);
+  if (!scene.stand_light)
+    throw_invalid(o.scene.string(), "has no [stand_light] table", "say which place, period and radiation");
+  const StandStudy study = client.stand_light(required_scene_name(o), *scene.stand_light, control);
+  write_whole_file(o.json, stand_json(study));
+  finish_progress();
+  print_stand(study);
+  std::printf("wrote        %s\n", o.json.c_str());
+}
+
 void fetch_picture(const ClientOptions& o, Client& client, const RunControl& control) {
   check_outputs("client render", {{"--png", o.png, ".png"}, {"--exr", o.exr, ".exr"}});
   const SceneFile scene = required_scene_file(o);
@@ -129,6 +155,7 @@ void run_client(const ClientOptions& o, const RunControl& control) {
     return;
   }
   if (o.action == "light") return fetch_light(o, client, control);
+  if (o.action == "stand") return fetch_stand(o, client, control);
   fetch_picture(o, client, control);
 }
 

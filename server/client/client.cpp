@@ -74,6 +74,7 @@ Client::State::State(const ConnectOptions& given)
       channel(make_channel(given)),
       scenes(v1::SceneService::NewStub(channel)),
       light(v1::LightService::NewStub(channel)),
+      stand_light(v1::StandLightService::NewStub(channel)),
       render(v1::RenderService::NewStub(channel)),
       info(v1::ServerInfoService::NewStub(channel)) {}
 

@@ -8,6 +8,8 @@
 
 #include "lighting/plan/light_request.h"
 #include "lighting/render/render.h"
+#include "lighting/study/stand_cost.h"
+#include "lighting/study/stand_study.h"
 #include "sim/base/run_control.h"
 #include "sim/forest/forest_spec.h"
 
@@ -65,6 +67,10 @@ class Client {
   void delete_scene(const std::string& name);
 
   LightMap light_map(const std::string& scene, const LightRequest& request, const RunControl& control = {});
+  // As run_stand_study(), with `spec` as given in the answer. A radiation file of the spec is read here.
+  StandStudy stand_light(const std::string& scene, const StandStudySpec& spec,
+                         const RunControl& control = {});
+  StandCost stand_light_cost(const std::string& scene, const StandStudySpec& spec);
   enum class Files { kNone, kExr, kPng, kExrAndPng };
   RemoteRender render(const std::string& scene, const LightRequest& light, const Camera& camera, Files files,
                       const RunControl& control = {}, const RemoteTileSink& tiles = {});

@@ -12,6 +12,7 @@
 #include "sunfleck/v1/render.grpc.pb.h"
 #include "sunfleck/v1/scene.grpc.pb.h"
 #include "sunfleck/v1/server_info.grpc.pb.h"
+#include "sunfleck/v1/stand_light.grpc.pb.h"
 
 namespace sunfleck {
 
@@ -21,6 +22,7 @@ struct Client::State {
   const std::shared_ptr<grpc::Channel> channel;
   const std::unique_ptr<v1::SceneService::Stub> scenes;
   const std::unique_ptr<v1::LightService::Stub> light;
+  const std::unique_ptr<v1::StandLightService::Stub> stand_light;
   const std::unique_ptr<v1::RenderService::Stub> render;
   const std::unique_ptr<v1::ServerInfoService::Stub> info;
 };

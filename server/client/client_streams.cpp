@@ -1,6 +1,7 @@
 // Head comment in client.h: streamed calls.
 #include "server/client/client.h"
 #include "server/client/client_state.h"
+#include "server/client/read_stream.h"
 #include "server/convert/array_message.h"
 #include "server/convert/camera_message.h"
 #include "server/convert/crc32c.h"
@@ -11,29 +12,6 @@
 
 namespace sunfleck {
 namespace {
-
-void report(const v1::Progress& progress, const RunControl& control) {
-  control.report(progress.stage(), progress.fraction());
-}
-
-// Reads a stream to its end with `use`. A failure in `use` cancels the call, a bad end throws what it says.
-template <class Response, class Use>
-void read_all(WatchedCall& call, grpc::ClientReader<Response>& reader, const Use& use) {
-  Response message;
-  try {
-    while (reader.Read(&message)) use(message);
-  } catch (...) {
-    call.context().TryCancel();
-    while (reader.Read(&message)) continue;
-    reader.Finish();
-    throw;
-  }
-  throw_unless_ok(reader.Finish());
-}
-
-[[noreturn]] void throw_incomplete() {
-  throw Error(ErrorKind::kInputOutput, "the answer", "ended without its summary", "ask again");
-}
 
 RemoteTile tile_from_message(const v1::RenderTile& message) {
   if (crc32c(message.rgb_float16()) != message.crc32c()) {

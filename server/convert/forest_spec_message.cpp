@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "server/convert/surroundings_message.h"
 #include "sim/base/error.h"
 #include "sunfleck/v1/scene.pb.h"
 
@@ -175,6 +176,16 @@ void read_plot(const v1::ForestSpec& message, const std::string& field, Violatio
   violations.number(field + ".period.size_y_m", period.size_y_m(), 0.01, kFarthest_m);
 }
 
+void read_crowns(const v1::ForestSpec& message, const std::string& field, Violations& violations,
+                 ForestSpec& spec) {
+  if (message.has_leaf_area_factor()) spec.leaf_area_factor = message.leaf_area_factor();
+  spec.clumps.radius_m = message.clumps().radius_m();
+  if (message.clumps().has_elements()) spec.clumps.elements = message.clumps().elements();
+  violations.number(field + ".leaf_area_factor", spec.leaf_area_factor, 1e-3, 1e3);
+  violations.number(field + ".clumps.radius_m", spec.clumps.radius_m, 0, 100);
+  violations.integer(field + ".clumps.elements", spec.clumps.elements, 1, 1'000'000);
+}
+
 // How trees become geometry.
 void read_detail(const v1::ForestSpec& message, const std::string& field, std::uint64_t trees,
                  const Limits& limits, Violations& violations, ForestSpec& spec) {
@@ -188,6 +199,7 @@ void read_detail(const v1::ForestSpec& message, const std::string& field, std::u
   violations.above(field + ".detail", spec.detail, 0, 1);
   violations.integer(field + ".size_classes", spec.size_classes, 1, 64);
   violations.integer(field + ".variants", spec.variants, 1, 64);
+  read_crowns(message, field, violations, spec);
   if (spec.trees != TreeSource::kCrown || !in_range) return;
   const std::uint64_t elements = trees * static_cast<std::uint64_t>(spec.elements_per_tree);
   if (elements > limits.elements_per_scene) {
@@ -242,6 +254,7 @@ ForestSpec forest_spec_from_message(const v1::ForestSpec& message, const std::st
   const std::uint64_t trees = read_trees(message, field, limits, known, violations, spec);
   read_detail(message, field, trees, limits, violations, spec);
   read_plot(message, field, violations, spec);
+  read_surroundings(message, field, trees, limits, violations, spec);
   return spec;
 }
 
@@ -257,6 +270,10 @@ void fill_message(const ForestSpec& spec, v1::ForestSpec& message) {
   message.set_detail(spec.detail);
   message.set_size_classes(spec.size_classes);
   message.set_variants(spec.variants);
+  message.set_leaf_area_factor(spec.leaf_area_factor);
+  message.mutable_clumps()->set_radius_m(spec.clumps.radius_m);
+  message.mutable_clumps()->set_elements(spec.clumps.elements);
+  fill_surroundings(spec, message);
   message.mutable_terrain()->set_elevation_m(spec.terrain.elevation_m);
   message.mutable_terrain()->set_slope_rad(spec.terrain.slope_rad);
   message.mutable_terrain()->set_aspect_rad(spec.terrain.aspect_rad);

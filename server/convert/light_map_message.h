@@ -34,6 +34,7 @@ class LightMapArrays {
 };
 
 void fill_message(const Provenance& provenance, v1::Provenance& message);
+Provenance provenance_from_message(const v1::Provenance& message);
 void fill_message(const BandLightMap& band, v1::BandSummary& message);
 void fill_summary(const LightMap& map, const LightMapArrays& arrays, v1::LightMapSummary& message);
 

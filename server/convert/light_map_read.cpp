@@ -67,6 +67,8 @@ BandLightMap band_from_messages(const ArraysByName& arrays, const v1::BandSummar
   return band;
 }
 
+}  // namespace
+
 Provenance provenance_from_message(const v1::Provenance& message) {
   Provenance provenance;
   provenance.method = message.method();
@@ -83,8 +85,6 @@ Provenance provenance_from_message(const v1::Provenance& message) {
   }
   return provenance;
 }
-
-}  // namespace
 
 LightMap light_map_from_messages(const std::vector<ReceivedArray>& arrays,
                                  const v1::LightMapSummary& summary) {

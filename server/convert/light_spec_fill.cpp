@@ -48,14 +48,7 @@ void fill_bands(const LightRequest& request, v1::LightSpec& message) {
     band.set_diffuse_horizontal_w_m2(request.light.bands[b].diffuse_horizontal_w_m2);
   }
   for (const OpticsOverride& from : request.optics.overrides) {
-    v1::OpticsOverride& to = *message.add_overrides();
-    to.set_material(from.material);
-    to.set_band(from.band);
-    to.set_leaf_reflectance_front(from.optics.leaf.reflectance_front);
-    to.set_leaf_reflectance_back(from.optics.leaf.reflectance_back);
-    to.set_leaf_transmittance_front(from.optics.leaf.transmittance_front);
-    to.set_leaf_transmittance_back(from.optics.leaf.transmittance_back);
-    to.set_bark_reflectance(from.optics.bark_reflectance);
+    fill_message(from, *message.add_overrides());
   }
 }
 
@@ -111,6 +104,28 @@ void fill_probes(const ProbePlan& plan, v1::ProbeOptions& message) {
 
 }  // namespace
 
+v1::SkyModel message_sky(SkyModel sky) {
+  switch (sky) {
+    case SkyModel::kUniform:
+      return v1::SKY_MODEL_UNIFORM;
+    case SkyModel::kStandardOvercast:
+      return v1::SKY_MODEL_STANDARD_OVERCAST;
+    case SkyModel::kPerez:
+      return v1::SKY_MODEL_PEREZ;
+  }
+  return v1::SKY_MODEL_UNSPECIFIED;
+}
+
+void fill_message(const OpticsOverride& from, v1::OpticsOverride& to) {
+  to.set_material(from.material);
+  to.set_band(from.band);
+  to.set_leaf_reflectance_front(from.optics.leaf.reflectance_front);
+  to.set_leaf_reflectance_back(from.optics.leaf.reflectance_back);
+  to.set_leaf_transmittance_front(from.optics.leaf.transmittance_front);
+  to.set_leaf_transmittance_back(from.optics.leaf.transmittance_back);
+  to.set_bark_reflectance(from.optics.bark_reflectance);
+}
+
 void fill_message(const LightRequest& request, v1::LightSpec& message) {
   message.set_method(message_method(request.method));
   fill_bands(request, message);
@@ -119,8 +134,9 @@ void fill_message(const LightRequest& request, v1::LightSpec& message) {
   to_sun.set_y(request.light.to_sun.y);
   to_sun.set_z(request.light.to_sun.z);
   message.set_sun_half_angle_rad(request.light.sun_half_angle_rad);
-  message.set_sky(request.light.sky == SkyModel::kUniform ? v1::SKY_MODEL_UNIFORM
-                                                          : v1::SKY_MODEL_STANDARD_OVERCAST);
+  message.set_sky(message_sky(request.light.sky));
+  message.set_sky_clearness(request.light.sky_clearness);
+  message.set_sky_brightness(request.light.sky_brightness);
   fill_reference(request.reference, *message.mutable_reference());
   message.mutable_spp()->set_sample_directions(request.spp.sample_directions);
   message.mutable_spp()->set_map_resolution(request.spp.map_resolution);

@@ -56,6 +56,8 @@ SkyModel sky_from_message(v1::SkyModel sky, const std::string& field, Violations
       return SkyModel::kUniform;
     case v1::SKY_MODEL_STANDARD_OVERCAST:
       return SkyModel::kStandardOvercast;
+    case v1::SKY_MODEL_PEREZ:
+      return SkyModel::kPerez;
     default:
       break;
   }
@@ -89,23 +91,6 @@ void check_face(const std::string& field, const char* face, double reflectance, 
   }
 }
 
-void read_override(const v1::OpticsOverride& message, const std::string& field,
-                   const std::set<std::string>& bands, Violations& violations, LightRequest& request) {
-  violations.text(field + ".material", message.material(), 200);
-  if (!bands.contains(message.band())) {
-    violations.add(field + ".band",
-                   "must be one of the request's bands, got '" + clipped(message.band()) + "'");
-  }
-  check_face(field, "front", message.leaf_reflectance_front(), message.leaf_transmittance_front(),
-             violations);
-  check_face(field, "back", message.leaf_reflectance_back(), message.leaf_transmittance_back(), violations);
-  violations.number(field + ".bark_reflectance", message.bark_reflectance(), 0, 1);
-  const LeafOptics leaf{message.leaf_reflectance_front(), message.leaf_reflectance_back(),
-                        message.leaf_transmittance_front(), message.leaf_transmittance_back()};
-  request.optics.overrides.push_back(
-      {message.material(), message.band(), {leaf, message.bark_reflectance()}});
-}
-
 void read_bands(const v1::LightSpec& message, const std::string& field, const Limits& limits,
                 Violations& violations, LightRequest& request) {
   const auto size = [](int n) { return static_cast<std::size_t>(n); };
@@ -118,7 +103,8 @@ void read_bands(const v1::LightSpec& message, const std::string& field, const Li
     read_band(message.bands(i), at(field + ".bands", size(i)), names, violations, request);
   }
   for (int i = 0; i < message.overrides_size(); ++i) {
-    read_override(message.overrides(i), at(field + ".overrides", size(i)), names, violations, request);
+    request.optics.overrides.push_back(
+        override_from_message(message.overrides(i), at(field + ".overrides", size(i)), names, violations));
   }
 }
 
@@ -154,6 +140,15 @@ void read_sun(const v1::LightSpec& message, const std::string& field, Violations
       break;
     }
   }
+}
+
+void read_sky(const v1::LightSpec& message, const std::string& field, Violations& violations,
+              Illumination& light) {
+  light.sky = sky_from_message(message.sky(), field + ".sky", violations);
+  if (message.has_sky_clearness()) light.sky_clearness = message.sky_clearness();
+  if (message.has_sky_brightness()) light.sky_brightness = message.sky_brightness();
+  violations.number(field + ".sky_clearness", light.sky_clearness, 1, 1000);
+  violations.number(field + ".sky_brightness", light.sky_brightness, 0, 1);
 }
 
 void read_reference(const v1::ReferenceOptions& message, const std::string& field, Violations& violations,
@@ -265,13 +260,29 @@ Skipping skipping_from_message(v1::Skipping skip, const std::string& field, Viol
 
 }  // namespace
 
+OpticsOverride override_from_message(const v1::OpticsOverride& message, const std::string& field,
+                                     const std::set<std::string>& bands, Violations& violations) {
+  violations.text(field + ".material", message.material(), 200);
+  if (!bands.contains(message.band())) {
+    violations.add(field + ".band",
+                   "must be one of the request's bands, got '" + clipped(message.band()) + "'");
+  }
+  check_face(field, "front", message.leaf_reflectance_front(), message.leaf_transmittance_front(),
+             violations);
+  check_face(field, "back", message.leaf_reflectance_back(), message.leaf_transmittance_back(), violations);
+  violations.number(field + ".bark_reflectance", message.bark_reflectance(), 0, 1);
+  const LeafOptics leaf{message.leaf_reflectance_front(), message.leaf_reflectance_back(),
+                        message.leaf_transmittance_front(), message.leaf_transmittance_back()};
+  return {message.material(), message.band(), {leaf, message.bark_reflectance()}};
+}
+
 LightRequest light_request_from_message(const v1::LightSpec& message, const std::string& field,
                                         const Limits& limits, Violations& violations) {
   LightRequest request;
   request.method = method_from_message(message.method(), field + ".method", violations);
   read_bands(message, field, limits, violations, request);
   read_sun(message, field, violations, request.light);
-  request.light.sky = sky_from_message(message.sky(), field + ".sky", violations);
+  read_sky(message, field, violations, request.light);
   read_reference(message.reference(), field + ".reference", violations, request.reference);
   request.reference.memory_limit_bytes = limits.request_memory_bytes;
   read_closed_forms(message, field, violations, request);

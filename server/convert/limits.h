@@ -18,7 +18,9 @@ struct Limits {
   std::uint32_t image_side_px = 8192;
   std::uint64_t image_samples = 1ull << 30;  // pixels times samples per pixel
   std::uint32_t query_elements = 10'000;
-  std::uint32_t running_calls = 0;  // 0: as many as cores
+  std::uint32_t stand_sensors = 10'000;
+  std::uint32_t stand_intervals = 8'784;  // the hours of a leap year
+  std::uint32_t running_calls = 0;        // 0: as many as cores
   std::uint32_t queued_calls = 64;
   double default_deadline_s = 60;  // of unary calls that state none; streams get the longest
   double longest_deadline_s = 3600;

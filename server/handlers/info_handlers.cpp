@@ -24,6 +24,8 @@ void fill_limits(const Limits& limits, v1::Limits& message) {
   message.set_default_deadline_s(limits.default_deadline_s);
   message.set_longest_deadline_s(limits.longest_deadline_s);
   message.set_stalled_write_s(limits.stalled_write_s);
+  message.set_stand_sensors(limits.stand_sensors);
+  message.set_stand_intervals(limits.stand_intervals);
 }
 
 void fill_load(const ServerState& state, v1::Load& message) {

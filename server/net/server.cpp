@@ -15,6 +15,7 @@
 #include "server/handlers/light_handlers.h"
 #include "server/handlers/render_handlers.h"
 #include "server/handlers/scene_handlers.h"
+#include "server/handlers/stand_light_handlers.h"
 #include "server/net/listening.h"
 #include "sim/base/error.h"
 #include "sim/base/version.h"
@@ -55,6 +56,7 @@ struct Server::State {
   ServerState shared;
   SceneHandlers scenes{shared};
   LightHandlers light{shared};
+  StandLightHandlers stand_light{shared};
   RenderHandlers render{shared, scratch.path()};
   InfoHandlers info{shared};
   int tcp_port = 0;
@@ -64,6 +66,7 @@ struct Server::State {
 void Server::State::add_services(grpc::ServerBuilder& builder) {
   builder.RegisterService(&scenes);
   builder.RegisterService(&light);
+  builder.RegisterService(&stand_light);
   builder.RegisterService(&render);
   builder.RegisterService(&info);
   const auto message_bytes = static_cast<int>(shared.limits.message_bytes);

@@ -50,6 +50,8 @@ void read_limits(const ConfigTable& table, Limits& limits) {
   limits.image_side_px = small(table, "image_side_px", limits.image_side_px, 1, 16384);
   limits.image_samples = whole(table, "image_samples", limits.image_samples, 1, 1ll << 40);
   limits.query_elements = small(table, "query_elements", limits.query_elements, 1, 30'000);
+  limits.stand_sensors = small(table, "stand_sensors", limits.stand_sensors, 0, 1'000'000);
+  limits.stand_intervals = small(table, "stand_intervals", limits.stand_intervals, 1, 200'000);
   limits.running_calls = small(table, "running_calls", limits.running_calls, 0, 4096);
   limits.queued_calls = small(table, "queued_calls", limits.queued_calls, 0, 100'000);
   limits.default_deadline_s = table.number_or("default_deadline_s", limits.default_deadline_s, {0.01, 1e6});

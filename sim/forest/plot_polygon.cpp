@@ -34,37 +34,41 @@ bool cross_each_other(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d
   return on(a, b, c) || on(a, b, d) || on(c, d, a) || on(c, d, b);
 }
 
-void refuse_crossing(const std::vector<Vec2>& corners, const CsvTable& table) {
+using CornerName = std::function<std::string(std::size_t corner)>;
+
+void refuse_crossing(const std::vector<Vec2>& corners, const CornerName& where) {
   const std::size_t n = corners.size();
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = i + 2; j < n; ++j) {
       if (i == 0 && j == n - 1) continue;  // neighbours share a corner
       if (!cross_each_other(corners[i], corners[i + 1], corners[j], corners[(j + 1) % n])) continue;
-      throw_invalid(table.where(j),
-                    "the side that starts here crosses the one that starts at " + table.where(i),
+      throw_invalid(where(j), "the side that starts here crosses the one that starts at " + where(i),
                     "list the corners in their order around the plot");
     }
 }
 
 }  // namespace
 
-PlotPolygon parse_plot_polygon(std::string_view csv, const std::string& name) {
-  const CsvTable table(csv, name);
-  const std::size_t x = table.required_column("x"), y = table.required_column("y");
-  PlotPolygon polygon;
-  for (std::size_t row = 0; row < table.rows(); ++row)
-    polygon.corners_m.push_back(
-        {table.number(row, x, -1e7, 1e7, "metres east"), table.number(row, y, -1e7, 1e7, "metres north")});
-  std::vector<Vec2>& corners = polygon.corners_m;
+PlotPolygon plot_polygon(std::vector<Vec2> corners, const std::string& name, const CornerName& where) {
   if (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
   if (corners.size() < 3)
     throw_invalid(name, "a plot needs three corners at least", "one row x,y per corner, around the plot");
-  refuse_crossing(corners, table);
+  refuse_crossing(corners, where);
   const double area = signed_area_m2(corners);
   if (!(std::fabs(area) > 1e-6))
     throw_invalid(name, "the plot has no area", "corners around an area, in metres");
   if (area < 0) std::reverse(corners.begin(), corners.end());
-  return polygon;
+  return {std::move(corners)};
+}
+
+PlotPolygon parse_plot_polygon(std::string_view csv, const std::string& name) {
+  const CsvTable table(csv, name);
+  const std::size_t x = table.required_column("x"), y = table.required_column("y");
+  std::vector<Vec2> corners;
+  for (std::size_t row = 0; row < table.rows(); ++row)
+    corners.push_back(
+        {table.number(row, x, -1e7, 1e7, "metres east"), table.number(row, y, -1e7, 1e7, "metres north")});
+  return plot_polygon(std::move(corners), name, [&](std::size_t corner) { return table.where(corner); });
 }
 
 PlotPolygon read_plot_polygon(const std::filesystem::path& path) {

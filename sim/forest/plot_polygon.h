@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -17,6 +19,9 @@ struct PlotPolygon {
 // corners, sides that cross (names the lines), no area.
 PlotPolygon read_plot_polygon(const std::filesystem::path& path);
 PlotPolygon parse_plot_polygon(std::string_view csv, const std::string& name);
+// The same for corners from elsewhere, in either direction of turning; `where` names a corner in messages.
+PlotPolygon plot_polygon(std::vector<Vec2> corners_m, const std::string& name,
+                         const std::function<std::string(std::size_t corner)>& where);
 PlotPolygon rectangle(const Vec2& lo_m, const Vec2& hi_m);
 
 double area_m2(const PlotPolygon& polygon);

@@ -166,6 +166,8 @@ TEST_F(BadInput, LightSpecs) {
        [](Spec& s) { s.mutable_solar_angles()->set_solar_zenith_angle_deg(97); }},
       {"light.sun", "beam_normal_w_m2 > 0", [](Spec& s) { s.clear_direction_to_sun(); }},
       {"light.sun_half_angle_rad", "got -1", [](Spec& s) { s.set_sun_half_angle_rad(-1); }},
+      {"light.sky_clearness", "got 0.5", [](Spec& s) { s.set_sky_clearness(0.5); }},
+      {"light.sky_brightness", "got -1", [](Spec& s) { s.set_sky_brightness(-1); }},
       {"light.sky", "unknown", [](Spec& s) { s.set_sky(static_cast<v1::SkyModel>(7)); }},
       {"light.overrides[0].band", "one of the request's bands",
        [](Spec& s) { s.add_overrides()->set_material("*"); }},

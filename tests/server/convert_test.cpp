@@ -11,11 +11,13 @@
 #include "server/convert/crc32c.h"
 #include "server/convert/half.h"
 #include "server/convert/light_spec_message.h"
+#include "server/convert/stand_request.h"
 #include "server/convert/status_message.h"
 #include "sim/base/error.h"
 #include "sim/base/random.h"
 #include "sunfleck/v1/common.pb.h"
 #include "sunfleck/v1/light.pb.h"
+#include "sunfleck/v1/stand_light.pb.h"
 
 namespace sunfleck {
 namespace {
@@ -213,6 +215,52 @@ TEST(LightSpecs, EqualRequestsHaveEqualKeysAndOthersDoNot) {
   other = request;
   other.reference.seed = 2;
   EXPECT_NE(request_key(request), request_key(other));
+}
+
+TEST(LightSpecs, PerezSkiesKeepTheirNumbers) {
+  LightRequest request;
+  request.optics.bands = {"PAR"};
+  request.optics.soil_albedo = {0.1};
+  request.light.bands = {{400, 80}};
+  request.light.sky = SkyModel::kPerez;
+  request.light.sky_clearness = 4.3;
+  request.light.sky_brightness = 0.17;
+  v1::LightSpec message;
+  fill_message(request, message);
+  Violations violations;
+  const LightRequest back = light_request_from_message(message, "light", {}, violations);
+  EXPECT_TRUE(violations.empty());
+  EXPECT_EQ(back.light.sky, SkyModel::kPerez);
+  EXPECT_EQ(back.light.sky_clearness, 4.3);
+  EXPECT_EQ(back.light.sky_brightness, 0.17);
+}
+
+// Times go as text, to the last digit.
+TEST(RadiationTables, RowsOfAnyKindComeBackTheSame) {
+  for (const char* csv :
+       {"time,global_horizontal_w_m2\n2024-06-21T23:59:00.1+02:00,480.1\n2024-06-22T01:00:00.7+02:00,0.3\n",
+        "date,global_horizontal_kwh_m2,diffuse_fraction\n2024-02-29,3.3,0.1\n1999-12-31,1.7,0.7\n",
+        "year,month,global_horizontal_mj_m2\n2011,3,300.3\n2010,12,70.1\n"}) {
+    const RadiationTable table = parse_radiation(csv, "a.csv");
+    v1::RadiationTable message;
+    fill_message(table, "a.csv", message);
+    Violations violations;
+    const RadiationTable back = radiation_from_message(message, "radiation", violations);
+    EXPECT_TRUE(violations.empty());
+    EXPECT_EQ(back.per, table.per);
+    EXPECT_EQ(back.is_power, table.is_power);
+    ASSERT_EQ(back.rows.size(), table.rows.size());
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+      EXPECT_EQ(back.rows[i].begin_s, table.rows[i].begin_s);
+      EXPECT_EQ(back.rows[i].end_s, table.rows[i].end_s);
+      EXPECT_EQ(back.rows[i].day, table.rows[i].day);
+      EXPECT_EQ(back.rows[i].month, table.rows[i].month);
+      EXPECT_EQ(back.rows[i].year, table.rows[i].year);
+      EXPECT_EQ(back.rows[i].global, table.rows[i].global);
+      EXPECT_EQ(back.rows[i].diffuse_fraction, table.rows[i].diffuse_fraction);
+      EXPECT_EQ(back.rows[i].where, at("radiation.rows", i));
+    }
+  }
 }
 
 TEST(Statuses, AnErrorSurvivesWithAllItsViolations) {

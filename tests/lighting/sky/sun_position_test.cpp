@@ -2,8 +2,10 @@
 // what geometry demands, and days without sunrise or sunset.
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "lighting/sky/sun_day.h"
 #include "sim/base/error.h"
@@ -163,6 +165,32 @@ TEST(Time, CalendarAndTextGoThereAndBack) {
   EXPECT_EQ(local_day(-1.0, 60), 0);
   EXPECT_EQ(local_time_text(parse_zoned_time("2024-06-21T23:30Z", "t").utc_s, 120), "2024-06-22T01:30+02:00");
   EXPECT_EQ(local_time_text(0, -210), "1999-12-31T20:30-03:30");
+}
+
+// The ephemeris library remembers its last answers: neither who asked before nor who asks beside may matter.
+TEST(SunPosition, DoesNotDependOnOtherCalls) {
+  const Place place{50, 5};
+  const auto same = [](const SunPosition& a, const SunPosition& b) {
+    return a.zenith_rad == b.zenith_rad && a.azimuth_rad == b.azimuth_rad &&
+           a.declination_rad == b.declination_rad;
+  };
+  std::vector<double> times_s;
+  std::vector<SunPosition> alone;
+  for (int i = 0; i < 400; ++i) {
+    times_s.push_back(6e8 + 1000.0 * i);  // within the 0.1 days that are remembered
+    sun_position(place, 1e8);             // far from it
+    alone.push_back(sun_position(place, times_s.back()));
+  }
+  std::atomic<int> others{0};
+  const auto ask = [&](int begin, int step) {
+    for (int round = 0; round < 6; ++round)
+      for (int i = begin; i >= 0 && i < 400; i += step)
+        if (!same(sun_position(place, times_s.at(static_cast<std::size_t>(i))),
+                  alone.at(static_cast<std::size_t>(i))))
+          ++others;
+  };
+  { std::jthread up(ask, 0, 1), down(ask, 399, -1), leaps(ask, 3, 7); }
+  EXPECT_EQ(others, 0);
 }
 
 TEST(Place, IsRefusedByField) {
