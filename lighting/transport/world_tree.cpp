@@ -221,7 +221,7 @@ class TreeSolver {
   void light_by_sun() {
     const Vec3 towards = scene_.frame.field_direction(world_.light.to_sun);
     const ExtinctionGrid own(*fine_.field, world_.light.to_sun, control_);
-    std::vector<float> depths = own.depth_of_elements(March::kForward, control_);
+    std::vector<float> depths = sun_depths(fine_.contents, *fine_.field, own, control_);
     const auto& elements = fine_.field->elements();
     const std::vector<float> others = others_sun_depth(towards);
     for_each_chunk(depths.size(), 4096, control_, {}, [&](std::size_t begin, std::size_t end) {
