@@ -62,30 +62,32 @@ class TreeSeries {
  public:
   void add(double power) {
     const double change = power - power_;
-    double rest = 0.0;
+    factor_ = 0.0;
     if (count_ >= 2 && std::abs(change) < kSteadiest * std::abs(change_)) {
       const double ratio = change / change_;
-      rest = change * ratio / (1.0 - ratio);
+      factor_ = ratio / (1.0 - ratio);
     }
-    moved_ = std::abs(power + rest - predicted_);
-    predicted_ = power + rest;
+    moved_ = std::abs(power + factor_ * change - predicted_);
+    predicted_ = power + factor_ * change;
     change_ = change;
     power_ = power;
     ++count_;
   }
   bool is_settled(double convergence) const {
+    if (count_ == 0 || (count_ < 3 && power_ > 0.0)) return false;
     if (!(power_ > 0.0)) return true;
     const double rest = std::abs(predicted_ - power_);
-    return count_ >= 3 && moved_ <= 0.5 * convergence * power_ && rest <= kLongestRest * convergence * power_;
+    return moved_ <= kChangePerError * convergence * power_ && rest <= kLongestRest * convergence * power_;
   }
-  // What all sources are still to grow by.
-  float gain() const { return power_ > 0.0 ? static_cast<float>(predicted_ / power_) : 1.0f; }
+  // What is still to come over the last change.
+  float rest_per_change() const { return static_cast<float>(factor_); }
 
  private:
-  static constexpr double kSteadiest = 0.9;    // changes that shrink more slowly tell no end
-  static constexpr double kLongestRest = 5.0;  // of the tolerance: the rest has not quite the shape of all
+  static constexpr double kChangePerError = 2.0;  // the prediction moves by more than it is off
+  static constexpr double kSteadiest = 0.9;       // changes that shrink more slowly tell no end
+  static constexpr double kLongestRest = 15.0;    // of the tolerance: the rest has not quite the last's shape
   int count_ = 0;
-  double power_ = 0, change_ = 0, predicted_ = 0, moved_ = 0;
+  double power_ = 0, change_ = 0, predicted_ = 0, moved_ = 0, factor_ = 0;
 };
 
 class TreeSolver {
@@ -305,28 +307,38 @@ class TreeSolver {
     fill_elements(b, beam, diffuse, leaf, gather(fine_, radiance, given, control_));
   }
 
-  // From the world's light on, until what the tree gives back stays. Returns the radiosity of every part.
+  // From the world's light on, until it is known where what the tree gives back is going; the rest is added
+  // in the shape of the last change. Returns the radiosity of every part.
   std::vector<FacePair> iterate(const LeafScattering& leaves, const std::vector<float>& block, double beam,
                                 std::vector<float>& radiance) {
     DirectLight direct;
     if (beam > 0.0) direct = {sun_.elements, sun_.wood, beam};
-    Orders orders;
+    Orders orders, before;
     TreeSeries series;
-    for (int i = 0; i < options_.max_iterations; ++i) {
+    for (int i = 0; i < options_.max_iterations && !series.is_settled(options_.convergence); ++i) {
+      if (i > 0) sweep_all(block, radiance);
+      before.last = orders.last;
+      before.wood_last = orders.wood_last;
       series.add(leaves.next_order(radiance, 1.0, direct, orders, radiance, control_));
-      const bool last = series.is_settled(options_.convergence);
-      if (last) scale(series.gain(), orders, radiance);
-      sweep_all(block, radiance);
       ++sweeps_;
-      if (last) break;
     }
-    orders.total = orders.last;
+    set_total(series.rest_per_change(), before, orders);
+    leaves.total_source(orders, 0.0, radiance, control_);
+    sweep_all(block, radiance);
     return leaves.total_radiosity(orders, 0.0, control_);
   }
 
-  void scale(float gain, Orders& orders, std::vector<float>& source) const {
-    for (float& q : source) q *= gain;
-    for (FacePair& light : orders.last) light = {gain * light.front, gain * light.back};
+  // Total light: the last and `factor` times its change.
+  static void set_total(float factor, Orders& before, Orders& orders) {
+    before.last.resize(orders.last.size());
+    before.wood_last.resize(orders.wood_last.size());
+    const auto beyond = [factor](float last, float change) { return std::max(0.0f, last + factor * change); };
+    for (std::size_t p = 0; p < orders.last.size(); ++p) {
+      const FacePair last = orders.last[p], old = before.last[p];
+      orders.total[p] = {beyond(last.front, last.front - old.front), beyond(last.back, last.back - old.back)};
+    }
+    for (std::size_t w = 0; w < orders.wood_last.size(); ++w)
+      orders.wood_total[w] = beyond(orders.wood_last[w], orders.wood_last[w] - before.wood_last[w]);
   }
 
   void fill_elements(std::size_t b, double beam, double diffuse, const std::vector<LeafBand>& leaf,
