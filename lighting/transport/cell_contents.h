@@ -42,6 +42,11 @@ struct ShootPart {
   float escape = 1;
 };
 
+// Null: flat.
+inline const ShootPart* shoot_of(const LeafPart& part, const ShootPart* shoots) {
+  return part.shoot > 0 ? &shoots[part.shoot - 1] : nullptr;
+}
+
 struct WoodCell {
   std::uint32_t cell = 0;
   Lanes depth{};  // sum of g over all wood in the cell

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lighting/depth/extinction_grid.h"
 #include "sim/base/parallel.h"
 
 namespace sunfleck::transport {
@@ -39,6 +38,20 @@ void light_wood(DirectSun& sun, const TransportScene& scene, const ExtinctionGri
 
 }  // namespace
 
+std::vector<float> sun_depths(const CellContents& contents, const BlockerField& field,
+                              const ExtinctionGrid& grid, const RunControl& control) {
+  std::vector<float> depths(field.elements().size(), static_cast<float>(kLargestDepth));
+  const std::size_t chunk = field.layout().wraps_xy ? kPointsPerChunk : 512;
+  for_each_chunk(contents.parts.size(), chunk, control, {}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      const std::uint32_t e = contents.parts[p].element;
+      if (contents.parts_of_element[contents.first_part_of_element[e]] == p)
+        depths[e] = static_cast<float>(grid.depth_from_element(e, March::kForward));
+    }
+  });
+  return depths;
+}
+
 void light_elements(DirectSun& sun, const BlockerField& field, std::span<const float> depths,
                     const Vec3& to_sun, const RunControl& control) {
   sun.elements.assign(field.elements().size(), {});
@@ -68,7 +81,7 @@ DirectSun direct_sun(const TransportScene& scene, const Forest& forest, const Ve
   if (field.ends_on_ground(to_sun)) return sun;
   sun.open_ground = glm::dot(to_sun, forest.terrain.normal());
   const ExtinctionGrid grid(field, to_sun, control);
-  light_elements(sun, field, grid.depth_of_elements(March::kForward, control), to_sun, control);
+  light_elements(sun, field, sun_depths(scene.contents, field, grid, control), to_sun, control);
   light_ground(sun, *scene.ground, grid, control);
   light_wood(sun, scene, grid, to_sun, control);
   return sun;

@@ -1,6 +1,7 @@
 // Direct sunlight: one march of the leaf-area grid per element, ground cell and cell with wood.
 #pragma once
 
+#include "lighting/depth/extinction_grid.h"
 #include "lighting/transport/leaf_scattering.h"
 #include "lighting/transport/transport_scene.h"
 
@@ -14,6 +15,11 @@ struct DirectSun {
   std::vector<float> wood;             // transmittance to cells with wood, times their wood_depths()
   double open_ground = 0;              // irradiance of the open ground
 };
+
+// Depth of the grid from every element towards its sun. Leaf by leaf of one cell after the other: their ways
+// through the grid are nearly the same and stay in the cache.
+std::vector<float> sun_depths(const CellContents& contents, const BlockerField& field,
+                              const ExtinctionGrid& grid, const RunControl& control);
 
 // Light of every element for its depth towards the sun; fills `elements` and `sunlit_fraction`.
 void light_elements(DirectSun& sun, const BlockerField& field, std::span<const float> depths,

@@ -4,18 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lighting/transport/gather_kernel.h"
 #include "sim/base/parallel.h"
 
 namespace sunfleck::transport {
 
 namespace {
-
-struct Corners {
-  std::array<std::size_t, 8> cell{};
-  std::array<float, 8> weight{};
-  std::size_t own_cell = 0;
-  float own_weight = 0;
-};
 
 // Two neighbours along an axis: what they add to the flat index, and their weights.
 struct Between {
@@ -60,11 +54,6 @@ Corners only_cell(std::uint32_t cell) {
   return corners;
 }
 
-// Radiance of a cell: from the directions of the half set, and from their opposites.
-struct alignas(64) CellRadiance {
-  alignas(64) Lanes near{}, far{};
-};
-
 std::vector<CellRadiance> by_cell(const TransportScene& scene, std::span<const float> radiance,
                                   const RunControl& control) {
   const std::size_t cells = scene.cells(), half = scene.set.half();
@@ -81,91 +70,27 @@ std::vector<CellRadiance> by_cell(const TransportScene& scene, std::span<const f
   return all;
 }
 
-class PartGather {
- public:
-  PartGather(const TransportScene& scene, const std::vector<CellRadiance>& radiance,
-             std::span<const FacePair> given)
-      : scene_(scene), radiance_(radiance), given_(given), lanes_(scene.lanes) {}
-
-  FacePair light_of(std::size_t index, const Corners& corners) const {
-    const LeafPart& part = scene_.contents.parts[index];
-    const ShootPart* shoot = part.shoot > 0 ? &scene_.contents.shoots[part.shoot - 1] : nullptr;
-    const FacePair given = given_.empty() ? FacePair{} : given_[index];
-    alignas(64) Lanes cosine, depth, cover, weight, front, back;
-    if (shoot != nullptr) {
-      shoot_depths(*shoot, lanes_, cosine, depth);
-      cover = shoot->cover;
-    } else {
-      cosines_of(part, lanes_, cosine);
-      depths_of(part.cover, lanes_, cosine, depth);
-      for (std::size_t j = 0; j < kLanes; ++j) cover[j] = std::fabs(cosine[j]);
-    }
-    // What reaches the front travels as what the part sends off its back.
-    const float sent_front = given.front / static_cast<float>(kPi),
-                sent_back = given.back / static_cast<float>(kPi);
-    for (std::size_t j = 0; j < kLanes; ++j)
-      depth[j] = corners.own_weight * own_part(depth[j], lanes_.step_cells[j]);
-    const CellRadiance& own_cell = radiance_[corners.own_cell];
-    for (std::size_t first = 0; first < kLanes; first += kRegisterLanes) {
-      RegisterLanes near, far, cos, own, covered, solid_angle, own_near, own_far;
-      mean_of(corners, first, near, far);
-      load(own, depth, first);
-      load(cos, cosine, first);
-      load(covered, cover, first);
-      load(solid_angle, lanes_.solid_angle_sr, first);
-      load(own_near, own_cell.near, first);
-      load(own_far, own_cell.far, first);
-      const RegisterLanes nothing = {}, off_front = nothing + sent_front, off_back = nothing + sent_back;
-      near += own * (own_near - (cos >= nothing ? off_back : off_front));
-      far += own * (own_far - (cos >= nothing ? off_front : off_back));
-      near = near > nothing ? near : nothing;
-      far = far > nothing ? far : nothing;
-      const RegisterLanes weights = solid_angle * covered;
-      store(weight, first, weights);
-      store(front, first, weights * (cos >= nothing ? near : far));
-      store(back, first, weights * (cos >= nothing ? far : near));
-    }
-    const float per_radiance = static_cast<float>(kPi) / sum_of(weight);
-    const float on_front = per_radiance * sum_of(front), on_back = per_radiance * sum_of(back);
-    if (shoot == nullptr) return {on_front, on_back};
-    const float even = shoot->escape * 0.5f * (on_front + on_back);
-    return {even, even};
-  }
-
- private:
-  void mean_of(const Corners& corners, std::size_t first, RegisterLanes& near, RegisterLanes& far) const {
-    near = far = RegisterLanes{};
-    RegisterLanes of_corner;
-    for (std::size_t k = 0; k < 8; ++k) {
-      const CellRadiance& corner = radiance_[corners.cell[k]];
-      load(of_corner, corner.near, first);
-      near += corners.weight[k] * of_corner;
-      load(of_corner, corner.far, first);
-      far += corners.weight[k] * of_corner;
-    }
-  }
-
-  const TransportScene& scene_;
-  const std::vector<CellRadiance>& radiance_;
-  const std::span<const FacePair> given_;
-  const DirectionLanes& lanes_;
-};
-
 std::vector<FacePair> light_of_parts(const TransportScene& scene, std::span<const float> radiance,
                                      std::span<const FacePair> given, const RunControl& control) {
   const CellContents& contents = scene.contents;
   const std::vector<CellRadiance> of_cells = by_cell(scene, radiance, control);
-  const PartGather parts(scene, of_cells, given);
+  const GatherPart gather_part = gather_part_best();
   std::vector<FacePair> light(contents.parts.size());
   for_each_chunk(contents.ranges.size(), 1, control, {}, [&](std::size_t r, std::size_t) {
     for (std::uint32_t cell = contents.ranges[r].begin; cell < contents.ranges[r].end; ++cell) {
       for (std::uint32_t p = contents.first_part[cell]; p < contents.first_part[cell + 1]; ++p) {
-        const std::uint32_t e = contents.parts[p].element;
+        const LeafPart& part = contents.parts[p];
+        const std::uint32_t e = part.element;
         const bool whole = contents.first_part_of_element[e + 1] - contents.first_part_of_element[e] == 1;
         const Corners corners =
             whole ? corners_around(scene.layout, cell, Vec3(scene.field->elements()[e].centre_m))
                   : only_cell(cell);
-        light[p] = parts.light_of(p, corners);
+        light[p] = gather_part({.part = part,
+                                .shoot = shoot_of(part, contents.shoots.data()),
+                                .radiance = of_cells.data(),
+                                .corners = corners,
+                                .given = given.empty() ? FacePair{} : given[p]},
+                               scene.lanes);
       }
     }
   });

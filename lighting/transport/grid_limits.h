@@ -1,10 +1,11 @@
 // What the grid method can and cannot do for a forest, known before any work from prototypes, instances and
 // bounds alone.
 //
-// The rule: a cell is clamp(extent / 32, 2, 4) leaf sides. Below 1.5 sides (kFewestSides) a leaf lights and
-// shades itself and depths are wrong by tens of percent; above 4 sides crowns blur; prototypes of fewer than
-// 300 elements (kFewElements) are no random medium: rays suit all three better. The side is the area-weighted
-// mean root of a leaf's area, for shoots of their mean silhouette.
+// The rule: a cell is clamp(extent / 32, 2 sides, 4 sides), extent that of the mean tree and not of the
+// stand; in trees of more than 200,000 leaves as much larger as keeps cells fewer than leaves. Below 1.5
+// sides (kFewestSides) a leaf lights and shades itself and depths are wrong by tens of percent; above 4 sides
+// crowns blur; prototypes of fewer than 300 elements (kFewElements) are no random medium: rays suit all three
+// better. The side is the area-weighted mean root of a leaf's area, for shoots of their mean silhouette.
 #pragma once
 
 #include <cstdint>
@@ -33,6 +34,9 @@ struct GridSuitability {
   // False: results may be wrong by 10 % and more, or the run would be refused.
   bool suitable() const { return fits && !few_elements && !small_cells; }
 };
+
+// Edge of a cell by the rule, 0 where leaves or their trees have no size to go by. Cost: as below.
+double grid_cell_size(const Forest& forest);
 
 // Cost: one look at every element of every prototype. Throws what prepare_grid() throws for bad options.
 GridSuitability grid_suitability(const Forest& forest, const GridOptions& options);

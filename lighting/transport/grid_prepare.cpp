@@ -27,11 +27,11 @@ void refuse_what_does_not_fit(const GridSuitability& s, const GridOptions& optio
   throw Error(ErrorKind::kLimitExceeded, "grid.cell_m", problem.str(), remedy.str());
 }
 
-BlockerFieldOptions field_options(const GridOptions& options, std::size_t elements) {
+BlockerFieldOptions field_options(const Forest& forest, const GridOptions& options, std::size_t elements) {
   const std::uint64_t of_elements = grid_bytes(0, elements, options.directions);
   const std::uint64_t left =
       options.memory_limit_bytes > of_elements ? options.memory_limit_bytes - of_elements : 0;
-  return {.cell_m = options.cell_m,
+  return {.cell_m = options.cell_m > 0.0 ? options.cell_m : grid_cell_size(forest),
           .max_cells = std::clamp<std::uint64_t>(left / grid_bytes(1, 0, options.directions), 27, 1ull << 31),
           .keep_cell = options.cell_m > 0.0};
 }
@@ -57,7 +57,7 @@ GridPrepared prepare_grid(const Forest& forest, const GridOptions& options, cons
     const StageTimer timer(provenance, "leaf-area grid");
     prepared.forest_hash = content_hash(forest);
     TransportScene scene = transport_scene(forest, index, directions_for(forest, options.directions),
-                                           field_options(options, index.element_count()), control);
+                                           field_options(forest, options, index.element_count()), control);
     scene.ground = std::make_unique<GroundMap>(forest, scene.frame, scene.layout, scene.set,
                                                GroundMap::kUsualCellsPerSide, control);
     prepared.scene = std::make_shared<const TransportScene>(std::move(scene));

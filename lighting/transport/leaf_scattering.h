@@ -12,29 +12,9 @@
 
 #include <span>
 
-#include "lighting/optics/optics.h"
-#include "lighting/transport/cell_contents.h"
-#include "lighting/transport/lanes.h"
+#include "lighting/transport/leaf_kernel.h"
 
 namespace sunfleck::transport {
-
-// Optics of a class in one band.
-struct LeafBand {
-  float reflectance_front = 0, reflectance_back = 0, transmittance_front = 0, transmittance_back = 0;
-  float albedo = 0;  // mean of the faces
-};
-std::vector<LeafBand> leaf_bands(const Forest& forest, const OpticsTable& optics, std::size_t band);
-// By wood area, 0 without wood.
-double mean_bark_reflectance(const Forest& forest, const OpticsTable& optics, std::size_t band);
-
-// Irradiance, W m-2, of both faces.
-struct FacePair {
-  float front = 0, back = 0;
-};
-// How much more light needles of a shoot get than comes from outside the shoot.
-inline float shoot_gain(float albedo, float escape) {
-  return 1.0f / std::max(1e-4f, 1.0f - albedo * (1.0f - escape));
-}
 
 // Light of one order of bounces, and of all so far. Wood: mean incident radiance per WoodCell.
 struct Orders {
@@ -81,16 +61,14 @@ class LeafScattering {
   double wood_intake_m2_sr(std::size_t wood_cell) const;
 
  private:
-  struct Cell;
-  FacePair face_light(const LeafPart& part, const Cell& cell, const Lanes& cosine, const Lanes& depth,
-                      double scale, const FacePair& sent, const DirectLight& direct) const;
-  FacePair radiosity(const LeafPart& part, const FacePair& light) const;
-  void part_depths(const LeafPart& part, Lanes& cosine, Lanes& depth) const;
-  double wood_order(std::size_t wood, Cell& cell, double scale, const DirectLight& direct,
+  double wood_order(std::size_t wood, CellLight& cell, double scale, const DirectLight& direct,
                     Orders& orders) const;
-  template <class PartVisit, class WoodVisit>
+  template <class PartsVisit, class WoodVisit>
   void for_each_cell(std::span<const float> radiance, std::span<float> source, const RunControl& control,
-                     const PartVisit& part_visit, const WoodVisit& wood_visit) const;
+                     const PartsVisit& parts_visit, const WoodVisit& wood_visit) const;
+  void start_cell(std::uint32_t cell, std::span<const float> radiance, CellLight& light) const;
+  void finish_cell(std::uint32_t cell, const CellLight& light, std::span<float> source) const;
+  void leave_alone(std::uint32_t cell, std::span<float> source) const;
 
   const CellContents& contents_;
   const DirectionLanes& lanes_;
@@ -99,6 +77,8 @@ class LeafScattering {
   const std::vector<LeafBand> bands_;
   const float bark_reflectance_;
   const Background* const background_;
+  // Source function of cells with nothing but background, per kind.
+  std::vector<Lanes> alone_near_, alone_far_;
 };
 
 }  // namespace sunfleck::transport

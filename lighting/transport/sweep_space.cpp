@@ -14,11 +14,20 @@ namespace {
 // A light level that changes by less than this from one round of a periodic scene to the next has settled.
 constexpr float kSettled = 1e-5f;
 
+// Wider than this times its height, a forest is a layer rather than a crown.
+constexpr double kWide = 1.5;
+
 float largest_change(const std::vector<float>& a, const std::vector<float>& b) {
   if (a.size() != b.size()) return 1.0f;
   float change = 0.0f;
   for (std::size_t i = 0; i < a.size(); ++i) change = std::max(change, std::abs(a[i] - b[i]));
   return change;
+}
+
+// A level line leaves it later than lines a little above or below.
+bool is_wide(const Forest& forest) {
+  const Vec3 size = forest_bounds(forest).size();
+  return std::sqrt(size.x * size.y) > kWide * size.z;
 }
 
 }  // namespace
@@ -30,8 +39,8 @@ std::vector<double> SweepSpace::step_cells() const {
 }
 
 DirectionSet directions_for(const Forest& forest, int directions) {
-  return forest.period ? layered_directions(directions, forest.terrain.normal())
-                       : cubic_directions(directions);
+  return forest.period || is_wide(forest) ? layered_directions(directions, forest.terrain.normal())
+                                          : cubic_directions(directions);
 }
 
 void plan_sweeps(SweepSpace& space) {

@@ -28,7 +28,10 @@ struct SweepSpace {
   std::vector<double> step_cells() const;
 };
 
-// Directions that suit a scene: `directions` is 8, 14 or 26.
+// Directions that suit a scene: `directions` is 8, 14 or 26. Layered ones (none level) for endless scenes and
+// for those much wider than high: what scatters close to level leaves a wide stand through its top or ends on
+// its floor; level directions would keep it among the leaves to the far side (light of the sun scattered in a
+// stand of 25 trees came out 9 % high).
 DirectionSet directions_for(const Forest& forest, int directions);
 
 // Fills `plans`.

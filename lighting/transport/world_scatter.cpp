@@ -1,14 +1,11 @@
 // See world_scatter.h.
 #include "lighting/transport/world_scatter.h"
 
-#include <cstring>
+#include "lighting/transport/wide_lanes.h"
 
 namespace sunfleck::transport {
 
 namespace {
-
-// Directions of half a set, in one wide register or several narrow ones.
-typedef float WideLanes __attribute__((vector_size(sizeof(Lanes))));
 
 // Faces alike: the sum of a pair of directions and its difference scatter each by itself, half the work.
 [[gnu::always_inline]] inline void add_alike(const WorldEntry& entry, const KindKernel& kernel,

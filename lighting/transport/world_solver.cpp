@@ -8,8 +8,8 @@
 #include <numeric>
 #include <utility>
 
-#include "lighting/depth/grid_march.h"
 #include "lighting/transport/world_scatter.h"
+#include "lighting/transport/world_sums.h"
 #include "sim/base/parallel.h"
 
 namespace sunfleck::transport {
@@ -142,42 +142,13 @@ class WorldSolver {
 
 }  // namespace
 
-WorldGround world_ground(const WorldScene& scene, const WorldSources& sources, const BandLight& strength,
-                         const std::vector<float>& radiance, const RunControl& control) {
-  std::vector<double> outside(sources.sectors.sky_radiance);
-  for (double& r : outside) r *= strength.diffuse_horizontal_w_m2;
-  WorldGround ground{ground_irradiance(scene, sources.sectors, radiance, outside, control),
-                     strength.diffuse_horizontal_w_m2 * sources.sectors.open_ground_irradiance};
-  if (sources.sun_ground.empty()) return ground;
-  for (std::size_t g = 0; g < ground.irradiance.size(); ++g)
-    ground.irradiance[g] += static_cast<float>(strength.beam_normal_w_m2 * sources.sun_ground[g]);
-  ground.open += strength.beam_normal_w_m2 * sources.open_ground;
-  return ground;
-}
-
-std::vector<float> ground_radiance(const WorldGround& ground, double soil_albedo) {
-  std::vector<float> radiance(ground.irradiance);
-  for (float& r : radiance) r *= static_cast<float>(soil_albedo / kPi);
-  return radiance;
-}
-
-BothLanes radiance_in(const WorldScene& scene, const std::vector<float>& radiance, std::size_t cell) {
-  BothLanes lanes{};
-  const std::size_t half = scene.set.half(), cells = scene.cells();
-  for (std::size_t j = 0; j < half; ++j) {
-    lanes[j] = radiance[j * cells + cell];
-    lanes[kLanes + j] = radiance[(half + j) * cells + cell];
-  }
-  return lanes;
-}
-
 void solve_world_band(const WorldScene& scene, const Forest& forest, const WorldSources& sources,
                       const BandLight& strength, double soil_albedo, const WorldOptions& options,
                       WorldBand& band, const RunControl& control) {
   const BandLight lit{.beam_normal_w_m2 = sources.sun_ground.empty() ? 0.0 : strength.beam_normal_w_m2,
                       .diffuse_horizontal_w_m2 = strength.diffuse_horizontal_w_m2};
   WorldSolver(scene, sources, lit, soil_albedo, *band.kernels, control).run(options, band);
-  add_world_totals(scene, forest, sources, lit, soil_albedo, band, control);
+  add_sums(scene, forest, sources, lit, soil_albedo, band, control);
 }
 
 }  // namespace sunfleck::transport

@@ -51,12 +51,4 @@ void solve_world_band(const WorldScene& scene, const Forest& forest, const World
 WorldGround world_ground(const WorldScene& scene, const WorldSources& sources, const BandLight& strength,
                          const std::vector<float>& radiance, const RunControl& control);
 
-// Of a cell, both directions of every pair.
-BothLanes radiance_in(const WorldScene& scene, const std::vector<float>& radiance, std::size_t cell);
-
-// Trees, mean and, in a periodic scene, the budget of a band whose radiance is known.
-void add_world_totals(const WorldScene& scene, const Forest& forest, const WorldSources& sources,
-                      const BandLight& strength, double soil_albedo, WorldBand& band,
-                      const RunControl& control);
-
 }  // namespace sunfleck::transport

@@ -1,4 +1,4 @@
-// Sun and sky in the world grid for strengths of 1, and light from outside it; see world_solver.h.
+// What comes into the world grid from outside: sun, sky and lit ground. See world_solver.h.
 #include <algorithm>
 #include <cmath>
 
@@ -112,6 +112,25 @@ float WorldInflow::radiance(const std::array<int, 3>& cell) const {
                                   static_cast<std::size_t>(cell[0])];
   return sky_ + share_ * (hit == GroundMap::kOpen ? open_radiance_
                                                   : ground_radiance_[static_cast<std::size_t>(hit)]);
+}
+
+WorldGround world_ground(const WorldScene& scene, const WorldSources& sources, const BandLight& strength,
+                         const std::vector<float>& radiance, const RunControl& control) {
+  std::vector<double> outside(sources.sectors.sky_radiance);
+  for (double& r : outside) r *= strength.diffuse_horizontal_w_m2;
+  WorldGround ground{ground_irradiance(scene, sources.sectors, radiance, outside, control),
+                     strength.diffuse_horizontal_w_m2 * sources.sectors.open_ground_irradiance};
+  if (sources.sun_ground.empty()) return ground;
+  for (std::size_t g = 0; g < ground.irradiance.size(); ++g)
+    ground.irradiance[g] += static_cast<float>(strength.beam_normal_w_m2 * sources.sun_ground[g]);
+  ground.open += strength.beam_normal_w_m2 * sources.open_ground;
+  return ground;
+}
+
+std::vector<float> ground_radiance(const WorldGround& ground, double soil_albedo) {
+  std::vector<float> radiance(ground.irradiance);
+  for (float& r : radiance) r *= static_cast<float>(soil_albedo / kPi);
+  return radiance;
 }
 
 }  // namespace sunfleck::transport

@@ -2,6 +2,7 @@
 #include "lighting/transport/world_surroundings.h"
 
 #include "lighting/depth/grid_march.h"
+#include "lighting/transport/world_contents.h"
 
 namespace sunfleck::transport {
 

@@ -1,6 +1,7 @@
 // Accuracy of the world grid with its trees, and of the grid over the whole forest, against traced light on a
 // stand of 25 trees.
 //   world_accuracy [leaves per tree] [rays per face] [world cell_m] [periodic 0/1] [spacing_m]
+//                  [soil albedo] [trees along an edge] [grid cell_m] [only clumped 0/1]
 #include <cstdlib>
 #include <iomanip>
 #include <iostream>
@@ -20,15 +21,18 @@ void print(const std::string& name, const StandErrors& e) {
 
 int run(int argc, char** argv) {
   const auto number = [&](int i, double usual) { return argc > i ? std::atof(argv[i]) : usual; };
-  const StandCase c = stand_case(stand({.leaves = static_cast<int>(number(1, 2000)),
-                                        .spacing_m = number(5, 4.5),
-                                        .periodic = number(4, 0) > 0}));
+  StandOptions made{.side = static_cast<int>(number(7, 5)),
+                    .leaves = static_cast<int>(number(1, 2000)),
+                    .spacing_m = number(5, 4.5),
+                    .periodic = number(4, 0) > 0};
+  if (number(9, 0) > 0) made.kinds = {CrownKind::kClumped};
+  const StandCase c = stand_case(stand(made), number(6, 0.2));
   const WorldOptions options{.cell_m = number(3, 0)};
   const WorldPrepared prepared = prepare_world(c.forest, options, {});
   const WorldLight world = world_light(c.forest, c.optics, c.light, options, prepared, {});
   for (const std::string& note : prepared.notes) std::cout << note << '\n';
   const std::vector<BandLightMap> trees = all_trees(c, world, options);
-  const LightMap grid = grid_light_map(c.forest, c.optics, c.light, {}, {});
+  const LightMap grid = grid_light_map(c.forest, c.optics, c.light, {.cell_m = number(8, 0)}, {});
   ReferenceOptions rays;
   rays.rays_per_face = static_cast<int>(number(2, 64));
   rays.sun_rays_per_element = 32;

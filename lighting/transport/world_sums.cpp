@@ -1,8 +1,9 @@
-// What the light of a band in the world grid amounts to: tree by tree and in a period. See world_solver.h.
-#include <cmath>
+// See world_sums.h.
+#include "lighting/transport/world_sums.h"
+
 #include <numeric>
 
-#include "lighting/transport/world_solver.h"
+#include "lighting/transport/world_contents.h"
 #include "sim/base/parallel.h"
 
 namespace sunfleck::transport {
@@ -113,9 +114,8 @@ void add_budget(const WorldScene& scene, const WorldSources& sources, const Band
 
 }  // namespace
 
-void add_world_totals(const WorldScene& scene, const Forest& forest, const WorldSources& sources,
-                      const BandLight& strength, double soil_albedo, WorldBand& band,
-                      const RunControl& control) {
+void add_sums(const WorldScene& scene, const Forest& forest, const WorldSources& sources,
+              const BandLight& strength, double soil_albedo, WorldBand& band, const RunControl& control) {
   const EntryLight light = light_of_entries(scene, sources, strength.beam_normal_w_m2, band, control);
   add_trees(scene, forest, sources, light, band, control);
   if (scene.periodic) add_budget(scene, sources, strength, soil_albedo, light.wood_absorbed_w, band);
