@@ -34,7 +34,9 @@ enum class RandomPurpose : std::uint32_t {
   kStandBounces,
   kSensorRays,
   kSurroundings = 40,
-  kClumps
+  kClumps,
+  kCrownBranches,
+  kUnderstorey
 };
 
 // One stream of numbers: (seed, element, purpose) names it, next() walks it. Cheap to make, copy and skip.

@@ -4,6 +4,7 @@
 #include "sim/forest/forest_spec.h"
 
 #include "sim/base/error.h"
+#include "sim/forest/realism.h"
 #include "sim/forest/surroundings.h"
 
 namespace sunfleck {
@@ -78,14 +79,41 @@ void read_plot(const ConfigTable& table, ForestSpec& spec) {
   }
 }
 
+void read_understorey(const ConfigTable& table, Understorey& under) {
+  under.add = table.boolean_or("add", true);
+  under.smallest_dbh_cm = table.number_or("smallest_dbh_cm", under.smallest_dbh_cm, {0.1, 100});
+  under.inventoried_from_dbh_cm =
+      table.number_or("inventoried_from_dbh_cm", under.inventoried_from_dbh_cm, {0, 100});
+  under.stems_ratio_per_5_cm = table.number_or("stems_ratio_per_5_cm", under.stems_ratio_per_5_cm, {1.01, 5});
+  under.light_power = table.number_or("light_power", under.light_power, {0, 10});
+}
+
+// What `realism` sets, key by key.
+void read_crown_fill(const ConfigTable& table, ForestSpec& spec) {
+  const bool natural = table.choice_or("realism", "plain", {"plain", "natural"}) == "natural";
+  apply(natural ? Realism::kNatural : Realism::kPlain, spec);
+  const char* source = spec.leaf_area == LeafAreaSource::kAllometry ? "allometry" : "density";
+  spec.leaf_area = table.choice_or("leaf_area", source, {"density", "allometry"}) == "allometry"
+                       ? LeafAreaSource::kAllometry
+                       : LeafAreaSource::kDensity;
+  spec.element_area_m2 = table.number_or("element_area_m2", spec.element_area_m2, {0, 100});
+  spec.rim_power = table.number_or("rim_power", spec.rim_power, {0, 20});
+  spec.branch_share = table.number_or("branch_share", spec.branch_share, {0, 10});
+  if (const auto under = table.table_if("understorey")) read_understorey(*under, spec.understorey);
+}
+
 void read_geometry(const ConfigTable& table, ForestSpec& spec) {
-  const std::string trees = table.choice_or("trees", "lsystem", {"lsystem", "crown"});
+  read_crown_fill(table, spec);
+  const char* usual = spec.trees == TreeSource::kCrown ? "crown" : "lsystem";
+  const std::string trees = table.choice_or("trees", usual, {"lsystem", "crown"});
   spec.trees = trees == "crown" ? TreeSource::kCrown : TreeSource::kLsystem;
   spec.elements_per_tree =
       static_cast<int>(table.integer_or("elements_per_tree", spec.elements_per_tree, {1, 1e7}));
   if (const auto clumps = table.table_if("clumps")) {
     spec.clumps.radius_m = clumps->number("radius_m", {0, 100});
     spec.clumps.elements = static_cast<int>(clumps->integer_or("elements", spec.clumps.elements, {1, 1e6}));
+    if (clumps->has("elements")) spec.clumps.leaf_area_m2 = 0;
+    spec.clumps.leaf_area_m2 = clumps->number_or("leaf_area_m2", spec.clumps.leaf_area_m2, {0, 1e4});
   }
   spec.leaf_area_factor = table.number_or("leaf_area_factor", 1, {1e-3, 1e3});
   spec.detail = table.number_or("detail", spec.detail, {1e-4, 1});

@@ -65,8 +65,24 @@ enum class Surroundings { kNone, kPeriodic, kMirrored, kSimilar };
 // kCrown: leaves in clumps instead of evenly. Clump centres are even in the crown, leaves even in their
 // clump.
 struct LeafClumps {
-  double radius_m = 0;  // 0: none
-  int elements = 20;    // of a clump
+  double radius_m = 0;      // 0: none
+  int elements = 20;        // of a clump
+  double leaf_area_m2 = 0;  // of a clump; above 0: instead of `elements`
+};
+
+// kCrown: where a tree's leaf area comes from.
+enum class LeafAreaSource {
+  kDensity,   // crown_lad times the crown's volume where the row states it, else foliage mass by DBH
+  kAllometry  // the law of harvested trees of the species (DBH and height), whatever the row says
+};
+
+// Trees too small to have been measured, see understorey.h.
+struct Understorey {
+  bool add = false;
+  double smallest_dbh_cm = 1;
+  double inventoried_from_dbh_cm = 0;  // 0: found from the diameters
+  double stems_ratio_per_5_cm = 1.4;   // de Liocourt's quotient
+  double light_power = 1;              // 0: anywhere; 1: where the crowns above let light through
 };
 
 struct ForestSpec {
@@ -82,6 +98,11 @@ struct ForestSpec {
   int elements_per_tree = 1000;     // kCrown: foliage elements per tree
   LeafClumps clumps;                // kCrown
   double leaf_area_factor = 1;      // kCrown: multiplies the leaf area of every tree
+  LeafAreaSource leaf_area = LeafAreaSource::kDensity;  // kCrown
+  double element_area_m2 = 0;       // kCrown: above 0: leaf area of an element, instead of elements_per_tree
+  double rim_power = 0;             // kCrown: see CrownFill
+  double branch_share = 0;          // kCrown: see CrownFill
+  Understorey understorey;          // only with an inventory
   double detail = 1.0;              // kLsystem: share of the foliage elements kept, (0, 1]
   int size_classes = 4;             // kLsystem: DBH classes per species
   int variants = 2;                 // kLsystem: prototypes per class

@@ -1,5 +1,8 @@
 // TreeSource::kCrown: every tree its own prototype. Memory is 44 bytes per foliage element of every tree.
 
+#include <algorithm>
+#include <cmath>
+
 #include "sim/base/error.h"
 #include "sim/base/parallel.h"
 #include "sim/base/random.h"
@@ -24,13 +27,30 @@ void check_elements(const ForestSpec& spec, std::size_t trees) {
       "at most " + std::to_string(kMostElements) + ": fewer elements per tree, or trees = \"lsystem\"");
 }
 
+constexpr int kLeastElements = 20;
+
+double leaf_area_of(const ForestSpec& spec, const StandTree& entry, const CrownShape& crown) {
+  const double area_m2 = spec.leaf_area == LeafAreaSource::kAllometry
+                             ? entry.species->leaf_area_m2(entry.tree.dbh_cm, crown.height_m)
+                             : tree_leaf_area_m2(entry.tree, *entry.species, crown);
+  return spec.leaf_area_factor * area_m2;
+}
+
 Prototype crown_of(const ForestSpec& spec, const StandTree& entry) {
   const CrownShape crown = tree_crown(entry.tree, *entry.species);
   CrownFill fill;
-  fill.leaf_area_m2 = spec.leaf_area_factor * tree_leaf_area_m2(entry.tree, *entry.species, crown);
+  fill.leaf_area_m2 = leaf_area_of(spec, entry, crown);
   fill.elements = spec.elements_per_tree;
+  if (spec.element_area_m2 > 0)
+    fill.elements = static_cast<int>(std::clamp(std::round(fill.leaf_area_m2 / spec.element_area_m2),
+                                                1.0 * kLeastElements, 1.0 * kMostElements));
   fill.clump_radius_m = spec.clumps.radius_m;
   fill.clump_elements = spec.clumps.elements;
+  if (spec.clumps.leaf_area_m2 > 0)
+    fill.clump_elements = static_cast<int>(
+        std::clamp(std::round(spec.clumps.leaf_area_m2 * fill.elements / fill.leaf_area_m2), 1.0, 1e6));
+  fill.rim_power = spec.rim_power;
+  fill.branch_share = spec.branch_share;
   fill.seed = mix_seed(spec.seed, entry.tree.id.value);
   Prototype prototype = crown_prototype(*entry.species, crown, fill);
   prototype.name = entry.species->latin + " " + std::to_string(entry.tree.id.value);

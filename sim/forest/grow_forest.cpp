@@ -12,24 +12,11 @@
 #include "sim/forest/stand.h"
 #include "sim/forest/surroundings.h"
 #include "sim/forest/tree_size.h"
+#include "sim/forest/understorey.h"
 
 namespace sunfleck {
 
 namespace {
-
-std::vector<InventoryTree> trees_of(const ForestSpec& spec, const RunControl& control,
-                                    std::vector<std::string>& notes) {
-  if (!spec.inventory.empty() && !spec.planting.empty()) {
-    throw_invalid("forest", "there are an inventory and planting rules", "give one of them");
-  }
-  if (!spec.inventory.empty()) return spec.inventory;
-  if (spec.planting.empty()) {
-    throw_invalid("forest", "there are no trees", "give an inventory or planting rules");
-  }
-  PlantedTrees planted = plant_trees(spec, control);
-  notes.insert(notes.end(), planted.shortfalls.begin(), planted.shortfalls.end());
-  return std::move(planted.trees);
-}
 
 // The rectangle around the trees and half the mean distance between them.
 PlotPolygon plot_around(const std::vector<InventoryTree>& trees) {
@@ -41,6 +28,29 @@ PlotPolygon plot_around(const std::vector<InventoryTree>& trees) {
   const double n = std::sqrt(static_cast<double>(trees.size()));
   const Vec2 margin = 0.5 * (hi - lo) / std::max(n - 1, 1.0) + 1e-3;
   return rectangle(lo - margin, hi + margin);
+}
+
+std::vector<InventoryTree> trees_of(const ForestSpec& spec, const SpeciesLibrary& species,
+                                    const RunControl& control, std::vector<std::string>& notes) {
+  if (!spec.inventory.empty() && !spec.planting.empty()) {
+    throw_invalid("forest", "there are an inventory and planting rules", "give one of them");
+  }
+  if (!spec.inventory.empty()) {
+    std::vector<InventoryTree> trees = spec.inventory;
+    if (spec.understorey.add) {
+      const PlotPolygon plot = spec.plot ? *spec.plot : plot_around(trees);
+      const std::vector<InventoryTree> small = understorey_trees(
+          trees, plot, spec.understorey, species, mix_seed(spec.seed, 78), notes);
+      trees.insert(trees.end(), small.begin(), small.end());
+    }
+    return trees;
+  }
+  if (spec.planting.empty()) {
+    throw_invalid("forest", "there are no trees", "give an inventory or planting rules");
+  }
+  PlantedTrees planted = plant_trees(spec, control);
+  notes.insert(notes.end(), planted.shortfalls.begin(), planted.shortfalls.end());
+  return std::move(planted.trees);
 }
 
 // Adds what stands around the plot; sets the period of a stand that repeats.
@@ -116,7 +126,7 @@ Forest grow_forest(const ForestSpec& spec, const SpeciesLibrary& species, const 
   forest.period = spec.period;
   validate(forest);  // ground and period, before anything costs time
   std::vector<StandTree> stand =
-      stand_of(with_surroundings(spec, trees_of(spec, control, said), forest, said), species);
+      stand_of(with_surroundings(spec, trees_of(spec, species, control, said), forest, said), species);
   const std::vector<StandTree> copies = take_copies(stand);
   forest.materials = materials_of(stand);
   switch (spec.trees) {

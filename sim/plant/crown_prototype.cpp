@@ -1,12 +1,13 @@
-// A crown shape filled evenly with foliage of a species.
+// A crown shape filled with foliage of a species.
 //
-// Element centres are uniform over the crown's volume outside the stem, normals follow the species' leaf
+// Element centres are even over the crown's volume outside the stem, or denser towards its rim, or in clumps, normals follow the species' leaf
 // angles, all elements have the same area. A shoot's axis lies in the plane of a leaf normal drawn so:
 // spherical normals give axes that point everywhere alike, planophile ones nearly level axes. Leaves may
 // overhang the crown's surface by their own size, but not reach below the ground at the stem foot.
 #include <cmath>
 
 #include "sim/base/error.h"
+#include "sim/plant/crown_branches.h"
 #include "sim/plant/crown_shape.h"
 #include "sim/plant/crown_stem.h"
 #include "sim/plant/leaf_angle_sampling.h"
@@ -62,7 +63,7 @@ bool stands_free(const CrownShape& crown, const FoliageElement& element) {
 // Centres of elements: even in the crown, or in clumps that are.
 class CentreSampler {
  public:
-  CentreSampler(const CrownShape& crown, const CrownFill& fill) : crown_(crown), fill_(fill) {}
+  CentreSampler(const CrownShape& crown, const CrownFill& fill) : crown_(crown, fill.rim_power), fill_(fill) {}
   Vec3 sample(std::size_t element, double share, RandomStream& random) const {
     if (fill_.clump_radius_m <= 0.0) return crown_.sample(share, random);
     const std::size_t clump = element / static_cast<std::size_t>(fill_.clump_elements);
@@ -101,6 +102,10 @@ void require_possible(const CrownFill& fill, const std::string& where) {
                   "give a number from 1 to " + std::to_string(kMostElements));
   if (!(fill.clump_radius_m >= 0.0 && fill.clump_radius_m <= 100.0) || fill.clump_elements < 1)
     throw_invalid(where + ": clumps", "are not possible", "a radius from 0 to 100 m and 1 element or more");
+  if (!(fill.rim_power >= 0.0 && fill.rim_power <= 20.0))
+    throw_invalid(where + ": rim power", "is out of range", "0 (even) to 20 (all at the surface)");
+  if (!(fill.branch_share >= 0.0 && fill.branch_share <= 10.0))
+    throw_invalid(where + ": branches", "are not possible", "0 to 10 m2 of branches per m2 of leaves");
 }
 
 }  // namespace
@@ -113,6 +118,7 @@ Prototype crown_prototype(const Species& species, const CrownShape& crown, const
   prototype.materials = {species.material.name};
   prototype.stated_dbh_m = crown.dbh_m;
   prototype.wood = crown_stem(crown);
+  for (const WoodSegment& branch : crown_branches(crown, fill)) prototype.wood.push_back(branch);
 
   const CentreSampler sampler(crown, fill);
   const auto count = static_cast<std::size_t>(fill.elements);

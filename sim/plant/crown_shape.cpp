@@ -16,11 +16,11 @@ Vec2 quadrant_axes_m(const CrownShape& crown, bool east, bool north) {
   return {east ? r[kEast] : -r[kWest], north ? r[kNorth] : -r[kSouth]};
 }
 
-// Uniform in the positive octant of the unit ball: direction uniform on the sphere, distance by volume.
-Vec3 sample_ball_octant(RandomStream& random) {
+// In the positive octant of the unit ball: direction uniform on the sphere; distance r with density r^2 r^rim.
+Vec3 sample_ball_octant(double rim_power, RandomStream& random) {
   const double z = random.uniform();
   const double azimuth_rad = random.uniform(0.0, 0.5 * kPi);
-  const double radius = std::cbrt(random.uniform());
+  const double u = random.uniform(), radius = rim_power > 0.0 ? std::pow(u, 1.0 / (3.0 + rim_power)) : std::cbrt(u);
   const double horizontal = std::sqrt(1.0 - z * z);
   return radius * Vec3(horizontal * std::cos(azimuth_rad), horizontal * std::sin(azimuth_rad), z);
 }
@@ -54,8 +54,8 @@ bool inside_crown(const CrownShape& crown, const Vec3& point_m, double tolerance
   return glm::dot(scaled, scaled) <= (1.0 + tolerance) * (1.0 + tolerance);
 }
 
-CrownSampler::CrownSampler(const CrownShape& crown)
-    : widest_m_(crown.widest_m), eighths_(crown_eighths(crown)), volume_to_here_m3_{} {
+CrownSampler::CrownSampler(const CrownShape& crown, double rim_power)
+    : widest_m_(crown.widest_m), rim_power_(rim_power), eighths_(crown_eighths(crown)), volume_to_here_m3_{} {
   double sum_m3 = 0.0;
   for (std::size_t i = 0; i < eighths_.size(); ++i) volume_to_here_m3_[i] = sum_m3 += eighths_[i].volume_m3;
 }
@@ -64,7 +64,7 @@ Vec3 CrownSampler::sample(double share, RandomStream& random) const {
   const double volume_m3 = share * volume_to_here_m3_.back();
   const auto found = std::upper_bound(volume_to_here_m3_.begin(), volume_to_here_m3_.end() - 1, volume_m3);
   const auto& eighth = eighths_[static_cast<std::size_t>(found - volume_to_here_m3_.begin())];
-  return Vec3(0.0, 0.0, widest_m_) + eighth.semi_axes_m * sample_ball_octant(random);
+  return Vec3(0.0, 0.0, widest_m_) + eighth.semi_axes_m * sample_ball_octant(rim_power_, random);
 }
 
 void validate(const CrownShape& crown, const std::string& where) {

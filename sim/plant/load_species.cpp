@@ -21,6 +21,11 @@ PowerLaw read_power_law(const ConfigTable& table) {
   return {table.number("a", {1e-6, 1e3}), table.number("b", {0.0, 5.0})};
 }
 
+LeafAreaLaw read_leaf_area(const ConfigTable& table) {
+  require_source(table);
+  return {table.number("a", {1e-6, 1e3}), table.number("b", {0.0, 5.0}), table.number_or("c", 0, {-3, 3})};
+}
+
 HeightCurve read_height(const ConfigTable& table) {
   require_source(table);
   return {table.number("p", {0.0, 5.0}), table.number("q", {-200.0, 0.0})};
@@ -109,6 +114,7 @@ Species load_species(const std::filesystem::path& path) {
   const ConfigTable leaf_area = table.table("specific_leaf_area");
   require_source(leaf_area);
   species.specific_leaf_area_m2_kg = leaf_area.number("m2_per_kg", {0.1, 100.0});
+  if (const auto law = table.table_if("leaf_area")) species.harvested_leaf_area = read_leaf_area(*law);
   species.foliage = read_foliage(table.table("foliage"));
   read_optics(table.table("optics"), species);
   table.reject_unread();

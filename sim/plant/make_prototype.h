@@ -48,9 +48,12 @@ struct CrownFill {
   std::uint64_t seed = 1;
   double clump_radius_m = 0;  // 0: leaves even in the crown; else in balls of this radius, even in the crown
   int clump_elements = 20;    // of each ball
+  // Leaf density grows with this power of the distance from the middle of the crown (as a share of the way to
+  // its surface); 0: even.
+  double rim_power = 0;
+  double branch_share = 0;  // half surface of branches per leaf area, see crown_branches.h
 };
-// Fills the crown evenly with leaves (or shoots) of the species' angle distribution; a conical stem to the
-// top.
+// Fills the crown with leaves (or shoots) of the species' angle distribution; a conical stem to the top.
 Prototype crown_prototype(const Species& species, const CrownShape& crown, const CrownFill& fill);
 
 // What an import found and what it left out.

@@ -67,6 +67,14 @@ void claim_names(const Species& species, const std::filesystem::path& file,
 
 }  // namespace
 
+double LeafAreaLaw::at(double dbh_cm, double height_m) const {
+  return a * std::pow(dbh_cm, b) * std::pow(height_m, c);
+}
+
+double Species::leaf_area_m2(double dbh_cm, double height_m) const {
+  return harvested_leaf_area ? harvested_leaf_area->at(dbh_cm, height_m) : leaf_area_m2(dbh_cm);
+}
+
 double PowerLaw::at(double dbh_cm) const { return a * std::pow(dbh_cm, b); }
 
 double HeightCurve::at(double dbh_cm) const { return kBreastHeight_m + std::exp(p + q / (dbh_cm + 1.0)); }

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,12 @@ struct PowerLaw {
 struct HeightCurve {
   double p = 0, q = 0;
   double at(double dbh_cm) const;
+};
+
+// Leaf area of a harvested tree: a * dbh_cm^b * height_m^c (m2, one-sided).
+struct LeafAreaLaw {
+  double a = 0, b = 0, c = 0;
+  double at(double dbh_cm, double height_m) const;
 };
 
 enum class LeafAngles { kSpherical, kPlanophile, kErectophile, kPlagiophile, kUniform };
@@ -52,6 +59,7 @@ struct Species {
   double crown_length_ratio = 0.6;  // crown length / height, stand-grown
   PowerLaw foliage_mass_kg;
   double specific_leaf_area_m2_kg = 10;  // one-sided
+  std::optional<LeafAreaLaw> harvested_leaf_area;  // [leaf_area], where harvests of the species are known
   FoliageTemplate foliage;
   std::string crown_shape;        // "ellipsoid", "cone", "paraboloid"
   std::filesystem::path grammar;  // empty: the species is known by its crown only
@@ -62,6 +70,8 @@ struct Species {
   double crown_radius_m(double dbh_cm) const { return crown_radius.at(dbh_cm); }
   double crown_base_m(double dbh_cm) const { return (1.0 - crown_length_ratio) * height_m(dbh_cm); }
   double leaf_area_m2(double dbh_cm) const { return foliage_mass_kg.at(dbh_cm) * specific_leaf_area_m2_kg; }
+  // By the law of harvested trees where there is one: knows that slender trees carry less.
+  double leaf_area_m2(double dbh_cm, double height_m) const;
 };
 
 // Reads one species file; every key is read or refused.
