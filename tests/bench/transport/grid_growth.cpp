@@ -1,5 +1,5 @@
-// How the grid method's cost grows with leaves and with instances: CPU time on one thread, best of a few runs,
-// and the exponent from one size to the next.
+// How the grid method's cost grows with leaves and with instances: CPU time on one thread, best of a few
+// runs, and the exponent from one size to the next.
 //   grid_growth [most leaves]
 #include <cmath>
 #include <cstdlib>
@@ -44,16 +44,19 @@ int run(int argc, char** argv) {
   const double most = argc > 1 ? std::atof(argv[1]) : 1e6;
   double size = 0.0, time = 0.0;
   for (double leaves = 1e3; leaves <= most * 1.01; leaves *= std::sqrt(10.0))
-    measure("leaves", std::round(leaves), generated_crown({.leaves = static_cast<int>(leaves), .crown_lai = 5}),
-            size, time);
+    measure("leaves", std::round(leaves),
+            generated_crown({.leaves = static_cast<int>(leaves), .crown_lai = 5}), size, time);
   size = 0.0;
   const Forest one = generated_crown({.leaves = 1000, .crown_lai = 4});
   for (int side = 1; 1000.0 * side * side <= most * 1.1; side *= 2) {
     Forest stand = one;
     stand.instances.clear();
     for (int i = 0; i < side * side; ++i)
-      stand.instances.push_back({.position_m = {2.5 * (i % side), 2.5 * (i / side), 0}, .prototype = {},
-                                 .yaw_rad = 0.1f * static_cast<float>(i), .scale = 1.0f, .tree = {}});
+      stand.instances.push_back({.position_m = {2.5 * (i % side), 2.5 * (i / side), 0},
+                                 .prototype = {},
+                                 .yaw_rad = 0.1f * static_cast<float>(i),
+                                 .scale = 1.0f,
+                                 .tree = {}});
     measure("instances", side * side, stand, size, time);
   }
   return 0;
