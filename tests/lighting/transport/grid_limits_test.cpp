@@ -1,6 +1,7 @@
 // What the grid method knows of its limits before any work, and what of its work is kept for the next answer.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -24,6 +25,51 @@ TEST(Suitability, TellsSizesBeforeAnyWork) {
   EXPECT_GE(s.cells, prepared.scene->layout.cell_count());
   EXPECT_LE(s.cells, 2 * prepared.scene->layout.cell_count());
   EXPECT_EQ(s.bytes, grid_bytes(s.cells, 4000, 26));
+}
+
+// 400 trees of 4000 leaves on a square.
+Forest rows_of(const Forest& tree) {
+  Forest forest = tree;
+  forest.instances.clear();
+  for (int i = 0; i < 400; ++i)
+    forest.instances.push_back({.position_m = {2.5 * (i % 20), 2.5 * (i / 20), 0},
+                                .prototype = {},
+                                .yaw_rad = 0.0f,
+                                .scale = 1.0f,
+                                .tree = {}});
+  return forest;
+}
+
+TEST(CellRule, IsThatOfTheTreeInEveryStand) {
+  const Forest tree = generated_crown({.leaves = 4000, .crown_lai = 5});
+  EXPECT_NEAR(grid_cell_size(rows_of(tree)), grid_cell_size(tree), 1e-12);
+  EXPECT_NEAR(grid_cell_size(tree), 2.0 * std::sqrt(5 * kPi / 4000), 1e-6);  // clamped at 2 sides
+}
+
+TEST(CellRule, GivesTreesOfManyLeavesNoMoreCellsThanLeaves) {
+  for (const int leaves : {3000, 30000, 300000}) {
+    const Forest tree = generated_crown({.leaves = leaves, .crown_lai = 5});
+    const Vec3 size = forest_bounds(tree).size();
+    const double cell = grid_cell_size(tree), side = std::sqrt(5 * kPi / leaves);
+    EXPECT_GE(cell, 2.0 * side * (1 - 1e-6)) << leaves;
+    EXPECT_LE(size.x * size.y * size.z / (cell * cell * cell), 1.7 * leaves) << leaves;
+    if (leaves == 300000) {
+      EXPECT_NEAR(size.x * size.y * size.z / (cell * cell * cell), 0.65 * leaves, 1.0);
+    }
+  }
+}
+
+TEST(DirectionRule, NoLevelDirectionsInWideStandsAndPeriods) {
+  const Forest tree = generated_crown({.leaves = 400});
+  Forest periodic = tree;
+  periodic.period = Period{{-1, -1}, {2, 2}};
+  const auto level = [](const Forest& forest) {
+    const transport::DirectionSet set = transport::directions_for(forest, 26);
+    return std::ranges::count_if(set.to_source, [](const Vec3& w) { return std::abs(w.z) < 0.01; });
+  };
+  EXPECT_EQ(level(tree), 8);
+  EXPECT_EQ(level(rows_of(tree)), 0);
+  EXPECT_EQ(level(periodic), 0);
 }
 
 TEST(Suitability, NamesFewLeavesAndBadCells) {
