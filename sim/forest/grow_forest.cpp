@@ -31,18 +31,6 @@ std::vector<InventoryTree> trees_of(const ForestSpec& spec, const RunControl& co
   return std::move(planted.trees);
 }
 
-// The rectangle around the trees and half the mean distance between them.
-PlotPolygon plot_around(const std::vector<InventoryTree>& trees) {
-  Vec2 lo(INFINITY), hi(-INFINITY);
-  for (const InventoryTree& tree : trees) {
-    lo = glm::min(lo, Vec2(tree.x_m, tree.y_m));
-    hi = glm::max(hi, Vec2(tree.x_m, tree.y_m));
-  }
-  const double n = std::sqrt(static_cast<double>(trees.size()));
-  const Vec2 margin = 0.5 * (hi - lo) / std::max(n - 1, 1.0) + 1e-3;
-  return rectangle(lo - margin, hi + margin);
-}
-
 // Adds what stands around the plot; sets the period of a stand that repeats.
 std::vector<InventoryTree> with_surroundings(const ForestSpec& spec, std::vector<InventoryTree> trees,
                                              Forest& forest, std::vector<std::string>& notes) {
@@ -102,6 +90,17 @@ std::vector<Material> materials_of(const std::vector<StandTree>& stand) {
 }
 
 }  // namespace
+
+PlotPolygon plot_around(const std::vector<InventoryTree>& trees) {
+  Vec2 lo(INFINITY), hi(-INFINITY);
+  for (const InventoryTree& tree : trees) {
+    lo = glm::min(lo, Vec2(tree.x_m, tree.y_m));
+    hi = glm::max(hi, Vec2(tree.x_m, tree.y_m));
+  }
+  const double n = std::sqrt(static_cast<double>(trees.size()));
+  const Vec2 margin = 0.5 * (hi - lo) / std::max(n - 1, 1.0) + 1e-3;
+  return rectangle(lo - margin, hi + margin);
+}
 
 Vec3 stem_foot_m(const Terrain& terrain, const InventoryTree& tree) {
   return {tree.x_m, tree.y_m, terrain.height_at(tree.x_m, tree.y_m)};
