@@ -42,7 +42,7 @@ class Keys {
   }
 
  private:
-  static void write_tree(CsvWriter& csv, const StandTree& tree) {
+  static void write_tree(CsvWriter& csv, const TreeRow& tree) {
     csv.number(tree.id);
     csv.text(csv_quoted(tree.species));
     csv.number(tree.foot_m.x);

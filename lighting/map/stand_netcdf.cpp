@@ -166,7 +166,7 @@ class StandWriter {
     std::vector<std::string> species;
     std::vector<unsigned> ids;
     std::vector<double> x, y, z, area;
-    for (const StandTree& t : all_.trees) {
+    for (const TreeRow& t : all_.trees) {
       species.push_back(t.species);
       ids.push_back(t.id);
       x.push_back(t.foot_m.x), y.push_back(t.foot_m.y), z.push_back(t.foot_m.z);

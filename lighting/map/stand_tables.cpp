@@ -68,9 +68,9 @@ std::vector<std::size_t> rows_of(const Forest& forest, bool virtual_trees) {
 }
 
 // Leaf area per prototype once, then per instance: forests share prototypes.
-std::vector<StandTree> describe_trees(const Forest& forest, const std::vector<std::size_t>& rows) {
+std::vector<TreeRow> describe_trees(const Forest& forest, const std::vector<std::size_t>& rows) {
   std::vector<double> area_m2(forest.prototypes.size(), -1);
-  std::vector<StandTree> trees;
+  std::vector<TreeRow> trees;
   for (const std::size_t i : rows) {
     const Instance& tree = forest.instances[i];
     double& own = area_m2[tree.prototype.value];

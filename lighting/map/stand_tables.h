@@ -41,7 +41,7 @@ struct StandTable {
   const StandVariable* find(const std::string& name) const;  // nullptr: not there
 };
 
-struct StandTree {
+struct TreeRow {
   std::uint32_t id = 0;
   std::string species;
   Vec3 foot_m{0};
@@ -54,7 +54,7 @@ struct StandTables {
   ParFactors par;
   std::vector<std::string> intervals;
   std::vector<double> begin_s, end_s;  // seconds since 2000-01-01T00:00 UTC
-  std::vector<StandTree> trees;        // rows of the tree table
+  std::vector<TreeRow> trees;          // rows of the tree table
   std::size_t virtual_trees = 0;       // left out
   std::vector<SensorRow> sensors;
   StandGround map;

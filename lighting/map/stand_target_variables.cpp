@@ -43,6 +43,37 @@ StandTable world_trees(const LargeStandLight& world, const std::vector<std::size
   return table;
 }
 
+// Share of open light, direct and diffuse together, from the total and `open`, per interval the energy that
+// open ground of the map's size gets.
+void add_pacl_total(const StandGround& map, const std::vector<double>& open, StandTable& table) {
+  const double map_m2 = map.cell_area_m2() * static_cast<double>(map.count());
+  const StandVariable& total = *table.find("total");
+  StandVariable share{"pacl_total", "1", "", "share of the light that open ground gets (unscattered)"};
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    const double scale = open[i] > 0 ? map_m2 / open[i] : 0;
+    for (std::size_t at = i * table.rows; at < (i + 1) * table.rows; ++at) {
+      share.value.push_back(scale * total.value[at]);
+      if (!total.standard_error.empty()) share.standard_error.push_back(scale * total.standard_error[at]);
+    }
+  }
+  table.variables.push_back(std::move(share));
+}
+
+// The period's first, then the parts'.
+std::vector<double> open_on_map(const StandStudy& study) {
+  std::vector<double> open;
+  if (study.world) {
+    open.push_back(0);
+    for (const double part : study.world->incident) open[0] += part;
+    if (study.world->incident.size() > 1)
+      open.insert(open.end(), study.world->incident.begin(), study.world->incident.end());
+    return open;
+  }
+  open = study.period->plot.on_map;
+  if (study.parts) open.insert(open.end(), study.parts->plot.on_map.begin(), study.parts->plot.on_map.end());
+  return open;
+}
+
 StandTable world_ground(const StandStudy& study) {
   const LargeStandLight& world = *study.world;
   StandTable table{StandTarget::kGround, world.map.count(), {}};
@@ -59,23 +90,8 @@ StandTable world_ground(const StandStudy& study) {
             world.ground_diffuse_share, diffuse, table);
   add_world({}, {"total", "MJ m-2", "mj_m2", "unscattered global radiation on the ground, per area of map"},
             1, world.ground_total, total, table);
+  add_pacl_total(world.map, open_on_map(study), table);
   return table;
-}
-
-// Share of open light, direct and diffuse together, from the total and what open ground of the map gets.
-void add_pacl_total(const StandStudy& study, StandTable& table) {
-  const double map_m2 = study.period->map.cell_area_m2() * static_cast<double>(study.period->map.count());
-  std::vector<double> open = study.period->plot.on_map;
-  if (study.parts) open.insert(open.end(), study.parts->plot.on_map.begin(), study.parts->plot.on_map.end());
-  const StandVariable& total = *table.find("total");
-  StandVariable share{"pacl_total", "1", "", "share of the light that open ground gets (unscattered)"};
-  for (std::size_t i = 0; i < open.size(); ++i)
-    for (std::size_t c = 0; c < table.rows; ++c) {
-      const double scale = open[i] > 0 ? map_m2 / open[i] : 0;
-      share.value.push_back(scale * total.value[i * table.rows + c]);
-      share.standard_error.push_back(scale * total.standard_error[i * table.rows + c]);
-    }
-  table.variables.push_back(std::move(share));
 }
 
 void add_measured(const StandStudy& study, StandTable& table) {
@@ -218,7 +234,7 @@ StandTable ground_table(const StandStudy& study) {
   add(
       study, {}, {"total", "MJ m-2", "mj_m2", "unscattered global radiation on the ground, per area of map"},
       1, keep, [](auto& l) -> auto& { return l.ground.total; }, table);
-  add_pacl_total(study, table);
+  add_pacl_total(study.period->map, open_on_map(study), table);
   add(
       study, {}, {"par_photons", "mol m-2", "mol_m2", "photons of PAR on the ground, unscattered"},
       mol_per_mj, keep, [](auto& l) -> auto& { return l.ground.total; }, table);

@@ -218,7 +218,7 @@ std::string trees(const Page& page) {
     header.insert(header.end(), {"Absorbed PAR (mol)", "per leaf area (mol&nbsp;m<sup>&minus;2</sup>)"});
   html::Table out(header, 2);
   for (std::size_t k = 0; k < std::min(table->rows, kMostTreeRows); ++k) {
-    const StandTree& tree = page.tables.trees[k];
+    const TreeRow& tree = page.tables.trees[k];
     const auto with_error = [&](const char* name) {
       const Figure f = figure_of(page.tables, StandTarget::kTree, name, k);
       return figure(f.value) + (f.error > 0 ? "&nbsp;&plusmn;&nbsp;" + figure(f.error) : "");

@@ -39,7 +39,7 @@ double mean_of(const StandTables& t, StandTarget target, const std::string& name
 
 double own_leaf_area_m2(const StandTables& t) {
   double sum = 0;
-  for (const StandTree& tree : t.trees) sum += tree.leaf_area_m2;
+  for (const TreeRow& tree : t.trees) sum += tree.leaf_area_m2;
   return sum;
 }
 

@@ -139,7 +139,7 @@ std::optional<GroundPicture> ground_picture(const StandTables& t) {
   picture.value = row(*shown, ground->rows, 0, share ? 100 : 1);
   const double highest = *std::max_element(picture.value.begin(), picture.value.end());
   picture.to = highest > 0 ? highest : 1;
-  for (const StandTree& tree : t.trees)
+  for (const TreeRow& tree : t.trees)
     if (t.trees.size() <= kMostStems && t.map.contains(tree.foot_m.x, tree.foot_m.y))
       picture.stems.push_back({Vec2(tree.foot_m), 0.004 * std::max(t.map.size_m().x, t.map.size_m().y)});
   for (std::size_t s = 0; s < t.sensors.size() && t.sensors.size() <= kMostSensorMarks; ++s)

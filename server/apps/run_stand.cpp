@@ -26,16 +26,24 @@ Forest forest_of(const StandOptions& o, const SceneFile& scene, const RunControl
                      &notes);
 }
 
+// The inventoried plot, where trees stand around it that nobody measured.
+std::optional<PlotPolygon> plot_of(const SceneFile& scene) {
+  if (!scene.forest || scene.forest->plot) return scene.forest ? scene.forest->plot : std::nullopt;
+  const bool surrounded =
+      scene.forest->surroundings != Surroundings::kNone && !scene.forest->inventory.empty();
+  return surrounded ? std::optional(plot_around(scene.forest->inventory)) : std::nullopt;
+}
+
 // Without a [stand_light.map] the question is about the plot, not about the trees put around it.
 StandStudySpec spec_of(const StandOptions& o, const SceneFile& scene) {
   if (!scene.stand_light)
     throw_invalid(o.scene.string(), "has no [stand_light] table",
                   "say which place, period and radiation, see configs/examples/stand.toml");
   StandStudySpec spec = *scene.stand_light;
-  if (spec.map_lo_m || !scene.forest || !scene.forest->plot) return spec;
-  const PlotBounds plot = bounds(*scene.forest->plot);
-  spec.map_lo_m = plot.lo_m;
-  spec.map_hi_m = plot.hi_m;
+  const auto plot = plot_of(scene);
+  if (spec.map_lo_m || !plot) return spec;
+  spec.map_lo_m = bounds(*plot).lo_m;
+  spec.map_hi_m = bounds(*plot).hi_m;
   return spec;
 }
 
@@ -57,7 +65,8 @@ void run_stand(const StandOptions& o, const RunControl& control) {
   const Forest forest = forest_of(o, scene, control, notes);
   StandStudy study = run_stand_study(forest, spec, control);
   study.provenance.notes.insert(study.provenance.notes.begin(), notes.begin(), notes.end());
-  const double plot_m2 = scene.forest && scene.forest->plot ? area_m2(*scene.forest->plot) : 0;
+  const auto plot = plot_of(scene);
+  const double plot_m2 = plot ? area_m2(*plot) : 0;
   const StandTables tables = stand_tables(study, forest, {.plot_area_m2 = plot_m2});
   std::vector<std::filesystem::path> written;
   const auto add = [&](const std::vector<std::filesystem::path>& more) {

@@ -18,7 +18,7 @@ double value_at(const StandTables& t, StandTarget target, const std::string& nam
 
 void print_header(const StandTables& t, const std::string& name) {
   double leaf_m2 = 0;
-  for (const StandTree& tree : t.trees) leaf_m2 += tree.leaf_area_m2;
+  for (const TreeRow& tree : t.trees) leaf_m2 += tree.leaf_area_m2;
   std::printf("stand        %s: %s trees", name.c_str(), grouped(t.trees.size()).c_str());
   if (t.virtual_trees > 0)
     std::printf(" and %s around them that nobody measured", grouped(t.virtual_trees).c_str());
@@ -58,17 +58,27 @@ void print_plot(const StandTables& t) {
       100 * mean, 100 * cells[cells.size() / 2], 100 * cells[cells.size() * 19 / 20]);
 }
 
+double ground_mean(const StandTables& t, std::size_t interval) {
+  const StandTable* ground = t.find(StandTarget::kGround);
+  double sum = 0;
+  for (std::size_t c = 0; c < ground->rows; ++c)
+    sum += ground->find("pacl_total")->value[interval * ground->rows + c];
+  return sum / static_cast<double>(ground->rows);
+}
+
 void print_intervals(const StandTables& t) {
   if (t.intervals.size() < 2) return;
-  std::printf("\n  %-18s %12s %12s %10s %10s\n", "interval", "open MJ m-2", "PAR mol m-2", "fAPAR %",
-              "ground %");
+  const bool fapar = t.find(StandTarget::kPlot, "absorbed_fraction_par") != nullptr;
+  std::printf("\n  %-18s %12s %12s %10s%s\n", "interval", "open MJ m-2", "PAR mol m-2", "ground %",
+              fapar ? "    fAPAR %" : "");
   const std::size_t last = std::min(t.intervals.size(), kMostIntervals + 1);
-  for (std::size_t i = 1; i < last; ++i)
-    std::printf("  %-18s %12.5g %12.5g %10.1f %10.1f\n", t.intervals[i].c_str(),
+  for (std::size_t i = 1; i < last; ++i) {
+    std::printf("  %-18s %12.5g %12.5g %10.1f", t.intervals[i].c_str(),
                 value_at(t, StandTarget::kPlot, "open_global", i),
-                value_at(t, StandTarget::kPlot, "open_par_photons", i),
-                100 * value_at(t, StandTarget::kPlot, "absorbed_fraction_par", i),
-                100 * value_at(t, StandTarget::kPlot, "transmittance_par", i));
+                value_at(t, StandTarget::kPlot, "open_par_photons", i), 100 * ground_mean(t, i));
+    if (fapar) std::printf(" %10.1f", 100 * value_at(t, StandTarget::kPlot, "absorbed_fraction_par", i));
+    std::printf("\n");
+  }
   if (last < t.intervals.size()) std::printf("  ... and %zu more in the files\n", t.intervals.size() - last);
   std::printf("\n");
 }

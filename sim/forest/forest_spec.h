@@ -110,6 +110,9 @@ struct ForestSpec {
   std::optional<Period> period;
 };
 
+// The rectangle around the trees and half the mean distance between them: the plot where no polygon is given.
+PlotPolygon plot_around(const std::vector<InventoryTree>& trees);
+
 // Reads the [forest] table of a scene file (see configs/scenes); inventory paths are relative to the file.
 ForestSpec read_forest_spec(const ConfigTable& table);
 

@@ -18,18 +18,6 @@ namespace sunfleck {
 
 namespace {
 
-// The rectangle around the trees and half the mean distance between them.
-PlotPolygon plot_around(const std::vector<InventoryTree>& trees) {
-  Vec2 lo(INFINITY), hi(-INFINITY);
-  for (const InventoryTree& tree : trees) {
-    lo = glm::min(lo, Vec2(tree.x_m, tree.y_m));
-    hi = glm::max(hi, Vec2(tree.x_m, tree.y_m));
-  }
-  const double n = std::sqrt(static_cast<double>(trees.size()));
-  const Vec2 margin = 0.5 * (hi - lo) / std::max(n - 1, 1.0) + 1e-3;
-  return rectangle(lo - margin, hi + margin);
-}
-
 std::vector<InventoryTree> trees_of(const ForestSpec& spec, const SpeciesLibrary& species,
                                     const RunControl& control, std::vector<std::string>& notes) {
   if (!spec.inventory.empty() && !spec.planting.empty()) {
@@ -112,6 +100,17 @@ std::vector<Material> materials_of(const std::vector<StandTree>& stand) {
 }
 
 }  // namespace
+
+PlotPolygon plot_around(const std::vector<InventoryTree>& trees) {
+  Vec2 lo(INFINITY), hi(-INFINITY);
+  for (const InventoryTree& tree : trees) {
+    lo = glm::min(lo, Vec2(tree.x_m, tree.y_m));
+    hi = glm::max(hi, Vec2(tree.x_m, tree.y_m));
+  }
+  const double n = std::sqrt(static_cast<double>(trees.size()));
+  const Vec2 margin = 0.5 * (hi - lo) / std::max(n - 1, 1.0) + 1e-3;
+  return rectangle(lo - margin, hi + margin);
+}
 
 Vec3 stem_foot_m(const Terrain& terrain, const InventoryTree& tree) {
   return {tree.x_m, tree.y_m, terrain.height_at(tree.x_m, tree.y_m)};

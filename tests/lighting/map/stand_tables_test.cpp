@@ -67,7 +67,7 @@ TEST(StandTables, TreesNobodyMeasuredAreLeftOutUnlessAskedFor) {
   const StandTables all = stand_tables(e.study, e.forest, {.virtual_trees = true});
   EXPECT_EQ(all.trees.size(), e.forest.instances.size());
   double own_m2 = 0;
-  for (const StandTree& tree : e.tables.trees) own_m2 += tree.leaf_area_m2;
+  for (const TreeRow& tree : e.tables.trees) own_m2 += tree.leaf_area_m2;
   EXPECT_NEAR(e.tables.find(StandTarget::kPlot, "leaf_area_index")->value[0], own_m2 / 324, 1e-6);
   EXPECT_GT(all.find(StandTarget::kPlot, "leaf_area_index")->value[0], own_m2 / 324);
   // Absorbed by the plot's own trees / what falls on the plot.
@@ -89,7 +89,11 @@ TEST(StandTables, LargeStandsHaveGroundAndTrees) {
   ASSERT_EQ(taken.value.size(), 27u);
   for (std::size_t k = 0; k < 9; ++k)
     EXPECT_NEAR(taken.value[k], taken.value[9 + k] + taken.value[18 + k], 1e-4 * taken.value[k]);
-  EXPECT_EQ(t.find(StandTarget::kGround, "total")->value.size(), 3 * t.map.count());
+  const StandVariable &total = *t.find(StandTarget::kGround, "total"),
+                      &share = *t.find(StandTarget::kGround, "pacl_total");
+  ASSERT_EQ(total.value.size(), 3 * t.map.count());
+  // On level ground the open light per area of map is the 1080 MJ m-2 asked for.
+  for (std::size_t c = 0; c < t.map.count(); ++c) EXPECT_NEAR(share.value[c], total.value[c] / 1080, 1e-3);
   EXPECT_FALSE(save_stand_csv(t, test::scratch_dir() / "boxes").empty());
 }
 
