@@ -68,11 +68,11 @@ TEST(Auto, TakesACheapMethodForAWideToleranceAndSaysWhatItIsWorth) {
 
 TEST(Auto, EndsWithTheReferenceForATightTolerance) {
   const Forest forest = crown();
-  const LightMap map = compute(forest, automatic(0.05));
+  const LightMap map = compute(forest, automatic(0.03));
   EXPECT_EQ(setting(map, "chosen_method"), "reference");
   EXPECT_NE(setting(map, "tried_methods").find("grid"), std::string::npos);
   EXPECT_FALSE(map.bands[0].standard_error_w_m2.empty());
-  for (const std::size_t b : {0u, 1u}) EXPECT_LT(true_rms(forest, map, b), 0.055);
+  for (const std::size_t b : {0u, 1u}) EXPECT_LT(true_rms(forest, map, b), 0.033);
 }
 
 // Between the two: diffuse light from a cheap method, direct light as the sun sees it. Almost all light is
