@@ -49,6 +49,13 @@ struct InfoOptions {
 };
 void run_info(const InfoOptions& options);
 
+struct CalibrateOptions {
+  std::filesystem::path scene, csv, configs;
+  bool understorey = false;
+  int realisations = 4;
+};
+void run_calibrate(const CalibrateOptions& options, const RunControl& control);
+
 struct ImportOptions {
   std::filesystem::path file, output, configs, instances;
   std::string format;                                       // leaves, obj, ply; empty: by extension

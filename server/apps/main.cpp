@@ -27,6 +27,23 @@ void add_grow(CLI::App& app, GrowOptions& o) {
       "  sunfleck grow --lsystem koch.lsys --steps 3 --print");
 }
 
+void add_calibrate(CLI::App& app, CalibrateOptions& o) {
+  CLI::App* c =
+      app.add_subcommand("calibrate", "Estimate the leaf area that explains light measured at sensors");
+  c->add_option("scene", o.scene,
+                "Scene file (TOML) with [forest] and [stand_light]; sensors with a column pacl")
+      ->required();
+  c->add_flag("--understorey", o.understorey, "Estimate the number of understorey trees too");
+  c->add_option("--realisations", o.realisations, "Stands per run that agree with the inventory")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000));
+  c->add_option("--csv", o.csv, "Table of the sensors to write (.csv)");
+  c->add_option("--configs", o.configs, "Folder with species/ and grammars/");
+  c->footer(
+      "Examples:\n  sunfleck calibrate stand.toml\n  sunfleck calibrate stand.toml --understorey --csv "
+      "fit.csv");
+}
+
 std::string known_methods() {
   std::string names;
   for (const std::string& name : method_names()) names += (names.empty() ? "" : ", ") + name;
@@ -246,6 +263,8 @@ int run(int argc, char** argv) {
   ServeOptions serve;
   ClientOptions client;
   BenchOptions bench;
+  CalibrateOptions calibrate_options;
+  add_calibrate(app, calibrate_options);
   add_grow(app, grow);
   add_light(app, light);
   add_render(app, render);
@@ -266,6 +285,7 @@ int run(int argc, char** argv) {
     const RunControl control = terminal_control();
     if (command == "grow") return run_grow(grow, control);
     if (command == "light") return run_light(light, control);
+    if (command == "calibrate") return run_calibrate(calibrate_options, control);
     if (command == "render") return run_render(render, control);
     if (command == "stand") return run_stand(stand, control);
     if (command == "inventory") return run_inventory_check(inventory);

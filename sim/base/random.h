@@ -36,7 +36,8 @@ enum class RandomPurpose : std::uint32_t {
   kSurroundings = 40,
   kClumps,
   kCrownBranches,
-  kUnderstorey
+  kUnderstorey,
+  kSplitHalf
 };
 
 // One stream of numbers: (seed, element, purpose) names it, next() walks it. Cheap to make, copy and skip.

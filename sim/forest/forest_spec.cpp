@@ -85,6 +85,7 @@ void read_understorey(const ConfigTable& table, Understorey& under) {
   under.inventoried_from_dbh_cm =
       table.number_or("inventoried_from_dbh_cm", under.inventoried_from_dbh_cm, {0, 100});
   under.stems_ratio_per_5_cm = table.number_or("stems_ratio_per_5_cm", under.stems_ratio_per_5_cm, {1.01, 5});
+  under.stems_factor = table.number_or("stems_factor", under.stems_factor, {0, 1000});
   under.light_power = table.number_or("light_power", under.light_power, {0, 10});
 }
 

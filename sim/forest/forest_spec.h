@@ -82,6 +82,7 @@ struct Understorey {
   double smallest_dbh_cm = 1;
   double inventoried_from_dbh_cm = 0;  // 0: found from the diameters
   double stems_ratio_per_5_cm = 1.4;   // de Liocourt's quotient
+  double stems_factor = 1;             // multiplies the number of trees added
   double light_power = 1;              // 0: anywhere; 1: where the crowns above let light through
 };
 
@@ -94,18 +95,18 @@ struct ForestSpec {
   double plot_width_m = 0, plot_depth_m = 0;
   std::optional<PlotPolygon> plot;  // the inventoried area; without: the rectangle around the trees
   Surroundings surroundings = Surroundings::kNone;
-  double surroundings_width_m = 0;  // 0: twice the height of the tall trees
-  int elements_per_tree = 1000;     // kCrown: foliage elements per tree
-  LeafClumps clumps;                // kCrown
-  double leaf_area_factor = 1;      // kCrown: multiplies the leaf area of every tree
+  double surroundings_width_m = 0;                      // 0: twice the height of the tall trees
+  int elements_per_tree = 1000;                         // kCrown: foliage elements per tree
+  LeafClumps clumps;                                    // kCrown
+  double leaf_area_factor = 1;                          // kCrown: multiplies the leaf area of every tree
   LeafAreaSource leaf_area = LeafAreaSource::kDensity;  // kCrown
-  double element_area_m2 = 0;       // kCrown: above 0: leaf area of an element, instead of elements_per_tree
-  double rim_power = 0;             // kCrown: see CrownFill
-  double branch_share = 0;          // kCrown: see CrownFill
-  Understorey understorey;          // only with an inventory
-  double detail = 1.0;              // kLsystem: share of the foliage elements kept, (0, 1]
-  int size_classes = 4;             // kLsystem: DBH classes per species
-  int variants = 2;                 // kLsystem: prototypes per class
+  double element_area_m2 = 0;  // kCrown: above 0: leaf area of an element, instead of elements_per_tree
+  double rim_power = 0;        // kCrown: see CrownFill
+  double branch_share = 0;     // kCrown: see CrownFill
+  Understorey understorey;     // only with an inventory
+  double detail = 1.0;         // kLsystem: share of the foliage elements kept, (0, 1]
+  int size_classes = 4;        // kLsystem: DBH classes per species
+  int variants = 2;            // kLsystem: prototypes per class
   Terrain terrain;
   std::optional<Period> period;
 };

@@ -27,8 +27,8 @@ std::vector<InventoryTree> trees_of(const ForestSpec& spec, const SpeciesLibrary
     std::vector<InventoryTree> trees = spec.inventory;
     if (spec.understorey.add) {
       const PlotPolygon plot = spec.plot ? *spec.plot : plot_around(trees);
-      const std::vector<InventoryTree> small = understorey_trees(
-          trees, plot, spec.understorey, species, mix_seed(spec.seed, 78), notes);
+      const std::vector<InventoryTree> small =
+          understorey_trees(trees, plot, spec.understorey, species, mix_seed(spec.seed, 78), notes);
       trees.insert(trees.end(), small.begin(), small.end());
     }
     return trees;

@@ -24,7 +24,9 @@ void check(const Understorey& o) {
   require(o.smallest_dbh_cm >= 0.1 && o.smallest_dbh_cm <= 100, "smallest_dbh_cm", "0.1 to 100 cm");
   require(o.inventoried_from_dbh_cm >= 0 && o.inventoried_from_dbh_cm <= 100, "inventoried_from_dbh_cm",
           "0 (found from the diameters) to 100 cm");
-  require(o.stems_ratio_per_5_cm > 1 && o.stems_ratio_per_5_cm <= 5, "stems_ratio_per_5_cm", "above 1, up to 5");
+  require(o.stems_ratio_per_5_cm > 1 && o.stems_ratio_per_5_cm <= 5, "stems_ratio_per_5_cm",
+          "above 1, up to 5");
+  require(o.stems_factor >= 0 && o.stems_factor <= 1000, "stems_factor", "0 to 1000");
   require(o.light_power >= 0 && o.light_power <= 10, "light_power", "0 to 10");
 }
 
@@ -49,7 +51,8 @@ std::vector<Shade> shades_of(const std::vector<InventoryTree>& trees, const Spec
     const CrownShape crown = tree_crown(tree, species);
     const auto& r = crown.radius_nesw_m;
     const double covered_m2 = 0.25 * kPi * (r[0] + r[2]) * (r[1] + r[3]);
-    shades.push_back({{tree.x_m, tree.y_m}, r, species.leaf_area_m2(tree.dbh_cm, crown.height_m) / covered_m2});
+    shades.push_back(
+        {{tree.x_m, tree.y_m}, r, species.leaf_area_m2(tree.dbh_cm, crown.height_m) / covered_m2});
   }
   return shades;
 }
@@ -92,8 +95,8 @@ std::vector<std::string> small_species(const std::vector<InventoryTree>& trees, 
 
 std::string said(std::size_t stems, double from_cm, double limit_cm) {
   char text[160];
-  std::snprintf(text, sizeof text, "%zu trees of %.3g to %.3g cm, too small for the inventory, were added", stems,
-                from_cm, limit_cm);
+  std::snprintf(text, sizeof text, "%zu trees of %.3g to %.3g cm, too small for the inventory, were added",
+                stems, from_cm, limit_cm);
   return text;
 }
 
@@ -110,14 +113,15 @@ std::optional<double> calliper_limit_cm(const std::vector<InventoryTree>& trees)
 }
 
 double missing_stems(const std::vector<InventoryTree>& trees, double limit_cm, const Understorey& options) {
-  const double scale_cm = kSeriesStepCm / std::log(options.stems_ratio_per_5_cm), width_cm = 2 * kSeriesStepCm;
+  const double scale_cm = kSeriesStepCm / std::log(options.stems_ratio_per_5_cm),
+               width_cm = 2 * kSeriesStepCm;
   double above = 0, below = 0;
   for (const InventoryTree& tree : trees) {
     above += tree.dbh_cm >= limit_cm && tree.dbh_cm < limit_cm + width_cm ? 1 : 0;
     below += tree.dbh_cm >= options.smallest_dbh_cm && tree.dbh_cm < limit_cm ? 1 : 0;
   }
-  const double series = (std::exp((limit_cm - options.smallest_dbh_cm) / scale_cm) - 1) /
-                        (1 - std::exp(-width_cm / scale_cm));
+  const double series =
+      (std::exp((limit_cm - options.smallest_dbh_cm) / scale_cm) - 1) / (1 - std::exp(-width_cm / scale_cm));
   return std::max(0.0, above * series - below);
 }
 
@@ -132,7 +136,8 @@ std::vector<InventoryTree> understorey_trees(const std::vector<InventoryTree>& t
     notes.push_back("no understorey was added: the diameters do not look cut off at a callipering limit");
     return {};
   }
-  const auto count = static_cast<std::size_t>(std::lround(missing_stems(trees, *limit, options)));
+  const auto count =
+      static_cast<std::size_t>(std::lround(options.stems_factor * missing_stems(trees, *limit, options)));
   const std::vector<std::string> names = small_species(trees, *limit);
   const std::vector<Shade> shades = shades_of(trees, species);
   const double scale_cm = kSeriesStepCm / std::log(options.stems_ratio_per_5_cm);

@@ -1,9 +1,10 @@
 // A crown shape filled with foliage of a species.
 //
-// Element centres are even over the crown's volume outside the stem, or denser towards its rim, or in clumps, normals follow the species' leaf
-// angles, all elements have the same area. A shoot's axis lies in the plane of a leaf normal drawn so:
-// spherical normals give axes that point everywhere alike, planophile ones nearly level axes. Leaves may
-// overhang the crown's surface by their own size, but not reach below the ground at the stem foot.
+// Element centres are even over the crown's volume outside the stem, or denser towards its rim, or in clumps,
+// normals follow the species' leaf angles, all elements have the same area. A shoot's axis lies in the plane
+// of a leaf normal drawn so: spherical normals give axes that point everywhere alike, planophile ones nearly
+// level axes. Leaves may overhang the crown's surface by their own size, but not reach below the ground at
+// the stem foot.
 #include <cmath>
 
 #include "sim/base/error.h"
@@ -63,7 +64,8 @@ bool stands_free(const CrownShape& crown, const FoliageElement& element) {
 // Centres of elements: even in the crown, or in clumps that are.
 class CentreSampler {
  public:
-  CentreSampler(const CrownShape& crown, const CrownFill& fill) : crown_(crown, fill.rim_power), fill_(fill) {}
+  CentreSampler(const CrownShape& crown, const CrownFill& fill)
+      : crown_(crown, fill.rim_power), fill_(fill) {}
   Vec3 sample(std::size_t element, double share, RandomStream& random) const {
     if (fill_.clump_radius_m <= 0.0) return crown_.sample(share, random);
     const std::size_t clump = element / static_cast<std::size_t>(fill_.clump_elements);

@@ -16,11 +16,13 @@ Vec2 quadrant_axes_m(const CrownShape& crown, bool east, bool north) {
   return {east ? r[kEast] : -r[kWest], north ? r[kNorth] : -r[kSouth]};
 }
 
-// In the positive octant of the unit ball: direction uniform on the sphere; distance r with density r^2 r^rim.
+// In the positive octant of the unit ball: direction uniform on the sphere; distance r with density r^2
+// r^rim.
 Vec3 sample_ball_octant(double rim_power, RandomStream& random) {
   const double z = random.uniform();
   const double azimuth_rad = random.uniform(0.0, 0.5 * kPi);
-  const double u = random.uniform(), radius = rim_power > 0.0 ? std::pow(u, 1.0 / (3.0 + rim_power)) : std::cbrt(u);
+  const double u = random.uniform(),
+               radius = rim_power > 0.0 ? std::pow(u, 1.0 / (3.0 + rim_power)) : std::cbrt(u);
   const double horizontal = std::sqrt(1.0 - z * z);
   return radius * Vec3(horizontal * std::cos(azimuth_rad), horizontal * std::sin(azimuth_rad), z);
 }

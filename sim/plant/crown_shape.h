@@ -25,8 +25,8 @@ std::array<CrownEighth, 8> crown_eighths(const CrownShape& crown);
 bool inside_crown(const CrownShape& crown, const Vec3& point_m, double tolerance = 0.0);
 
 // Points spread over the volume, evenly or with a density that grows as the distance from the crown's middle
-// (as a share of the way to its surface) to the power `rim_power` >= 0. `share` in [0, 1) picks the eighth by volume (equal steps of share
-// spread over the eighths exactly), the rest is random within it.
+// (as a share of the way to its surface) to the power `rim_power` >= 0. `share` in [0, 1) picks the eighth by
+// volume (equal steps of share spread over the eighths exactly), the rest is random within it.
 class CrownSampler {
  public:
   explicit CrownSampler(const CrownShape& crown, double rim_power = 0);

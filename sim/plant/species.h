@@ -58,7 +58,7 @@ struct Species {
   PowerLaw crown_radius;
   double crown_length_ratio = 0.6;  // crown length / height, stand-grown
   PowerLaw foliage_mass_kg;
-  double specific_leaf_area_m2_kg = 10;  // one-sided
+  double specific_leaf_area_m2_kg = 10;            // one-sided
   std::optional<LeafAreaLaw> harvested_leaf_area;  // [leaf_area], where harvests of the species are known
   FoliageTemplate foliage;
   std::string crown_shape;        // "ellipsoid", "cone", "paraboloid"
