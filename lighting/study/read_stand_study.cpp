@@ -45,6 +45,7 @@ void read_map(const ConfigTable& table, StandStudySpec& spec) {
 
 void read_cost(const ConfigTable& table, StandStudySpec& spec) {
   spec.rays_per_cell = table.number_or("rays_per_cell", spec.rays_per_cell, {1, 1e7});
+  spec.tree_relative_error = table.number_or("tree_relative_error", spec.tree_relative_error, {0, 1});
   spec.sensor_sun_rays =
       static_cast<int>(table.integer_or("sensor_sun_rays", spec.sensor_sun_rays, {1, 1e5}));
   spec.sensor_sky_rays =
