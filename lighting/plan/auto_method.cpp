@@ -11,6 +11,7 @@
 #include "lighting/plan/auto_direct.h"
 #include "lighting/plan/auto_report.h"
 #include "lighting/trace/probe_path.h"
+#include "lighting/transport/grid_limits.h"
 #include "sim/base/error.h"
 
 namespace sunfleck {
@@ -40,7 +41,7 @@ class Ladder {
   LightMap climb() {
     if (options_.time_s) return best_in_time();
     probe();
-    for (const GridOptions& grid : grid_rungs(sizes_, request_.grid, options_.aim()))
+    for (const GridOptions& grid : fitting_rungs(options_.aim()))
       if (try_grid(grid)) return finish();
     try_reference();
     return finish();
@@ -57,6 +58,14 @@ class Ladder {
     probes_ = draw_probes(*rays_, optics_, light_, plan_, control_);
     if (is_of_groups(options_.measure))
       groups_ = draw_group_probes(*rays_, optics_, light_, plan_, options_, control_);
+  }
+
+  // A rung whose cells do not fit the memory takes the cells that do; nobody asked for its size.
+  std::vector<GridOptions> fitting_rungs(double tolerance) const {
+    std::vector<GridOptions> rungs = grid_rungs(sizes_, request_.grid, tolerance);
+    for (GridOptions& grid : rungs)
+      if (request_.grid.cell_m == 0.0 && !grid_suitability(scene_.forest, grid).fits) grid.cell_m = 0.0;
+    return rungs;
   }
 
   // As it is, then with the sun drawn over it.
@@ -177,7 +186,7 @@ class Ladder {
       if (predicted_s(reference_s(sizes_, rays, bands, sun)) > left_s) continue;
       if (run_reference_of(rays)) return;
     }
-    std::vector<GridOptions> grids = grid_rungs(sizes_, request_.grid, 0.0);
+    std::vector<GridOptions> grids = fitting_rungs(0.0);
     for (std::size_t g = grids.size(); g-- > 0;)
       for (const double sun_error : {0.05, 0.1}) {
         if (!sun) break;

@@ -126,8 +126,12 @@ class TreeSolver {
       given = iterate(leaves, block, beam, radiance);
     }
     const StageTimer timer(map_.provenance, "leaf gather");
-    for (std::size_t i = 0; i < radiance.size(); ++i)
-      radiance[i] = std::max(0.0f, radiance[i] - static_cast<float>(diffuse) * sky_[i]);
+    for (std::size_t i = 0; i < radiance.size(); ++i) {
+      const float scattered = radiance[i] - static_cast<float>(diffuse) * sky_[i];
+      // What is left of two floats that are the same but for rounding is no light.
+      constexpr float kRounding = 2e-6f;
+      radiance[i] = scattered > kRounding * radiance[i] ? scattered : 0.0f;
+    }
     fill_elements(b, beam, diffuse, leaf, gather(space_.fine, radiance, given, control_));
   }
 
