@@ -224,7 +224,10 @@ std::string cheap_copy(const fs::path& scene_file, const fs::path& folder) {
   if (table == std::string::npos) return {};
   text.insert(table + 14,
               "rays_per_cell = 5\nsensor_sun_rays = 1\nsensor_sky_rays = 1\npatch_deg = 30\nbin_deg = 30\n");
-  text.replace(text.find("elements_per_tree = 1000"), 24, "elements_per_tree = 20");
+  if (const std::size_t at = text.find("elements_per_tree = 1000"); at != std::string::npos)
+    text.replace(at, 24, "elements_per_tree = 20");
+  else
+    text.insert(text.find("realism = "), "element_area_m2 = 3\n");
   const std::string data = "../../../shared/data/stands/cloture20";
   if (text.find(data) != std::string::npos) {
     const auto measured = test::shared_data("stands/cloture20/trees.csv");
