@@ -1,12 +1,12 @@
 // The real program on the real command line: help, exit codes, one clear error for every mistake, nothing
 // left behind.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <cstdio>
 #include <fstream>
 #include <string>
 
+#include "tests/server/apps/run_program.h"
 #include "tests/support/golden.h"
 
 namespace sunfleck {
@@ -14,28 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Ran {
-  int code = -1;
-  std::string text;  // stdout and stderr
-};
-
-Ran run(const std::string& arguments) {
-  const std::string command =
-      "cd '" + test::source_dir().string() + "' && '" SUNFLECK_PROGRAM "' " + arguments + " 2>&1";
-  Ran ran;
-  FILE* pipe = popen(command.c_str(), "r");
-  char buffer[4096];
-  for (std::size_t n; (n = fread(buffer, 1, sizeof buffer, pipe)) > 0;) ran.text.append(buffer, n);
-  const int status = pclose(pipe);
-  ran.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return ran;
-}
-
-fs::path write_file(const std::string& name, const std::string& text) {
-  const fs::path path = test::scratch_dir() / name;
-  std::ofstream(path) << text;
-  return path;
-}
+using test::Ran;
+using test::run;
+using test::write_file;
 
 const char kScene[] = R"(
 [forest]
