@@ -58,8 +58,10 @@ void run_calibrate(const CalibrateOptions& options, const RunControl& control);
 
 struct ImportOptions {
   std::filesystem::path file, output, configs, instances;
-  std::string format;                                       // leaves, obj, ply; empty: by extension
-  std::string material = "leaf";                            // leaf lists
+  std::string format;             // leaves, obj, ply, qsm; empty: by extension
+  std::string material = "leaf";  // leaf lists, QSM
+  double leaf_area_m2 = 0;        // QSM: foliage added on its twigs; 0: none
+  int elements = 10'000;
   std::vector<std::string> leaf_materials, wood_materials;  // "file material=forest material"
   std::vector<double> period;                               // x0 y0 size_x size_y, m
 };
@@ -67,10 +69,10 @@ void run_import(const ImportOptions& options);
 
 struct ExportOptions {
   std::filesystem::path forest, output;
-  std::string format = "obj";  // obj, leaves, trees
+  std::string format;  // obj, ply, gltf, qsm, leaves, trees; empty: by extension
   std::size_t prototype = 0;
 };
-void run_export(const ExportOptions& options);
+void run_export(const ExportOptions& options, const RunControl& control);
 
 struct BenchOptions {
   std::string kind;    // error-vs-time, growth, stability, tables

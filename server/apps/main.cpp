@@ -120,12 +120,21 @@ void add_files(CLI::App& app, InfoOptions& info, ImportOptions& in, ExportOption
   c->add_option("file", info.file, "File to describe")->required();
   c->footer("Examples:\n  sunfleck info stand.vdb\n  sunfleck info light.nc");
 
-  c = app.add_subcommand("import", "Turn a leaf list or a mesh into a forest of one prototype");
-  c->add_option("file", in.file, "Leaf list (radius x y z nx ny nz per line; .gz too), .obj or .ply")
+  c = app.add_subcommand("import",
+                         "Turn a leaf list, a mesh or a scanned tree into a forest of one prototype");
+  c->add_option(
+       "file", in.file,
+       "Leaf list (radius x y z nx ny nz per line; .gz too), .obj, .ply, or .csv with the cylinders of a "
+       "quantitative structure model (start, end or axis and length, radius; metres)")
       ->required();
   c->add_option("-o,--output", in.output, "Forest to write (.vdb)")->required();
-  c->add_option("--format", in.format, "leaves, obj or ply; default: by extension");
-  c->add_option("--material", in.material, "Material of a leaf list: a species, or any name")
+  c->add_option("--format", in.format, "leaves, obj, ply or qsm; default: by extension")
+      ->check(CLI::IsMember({"leaves", "obj", "ply", "qsm"}));
+  c->add_option("--material", in.material, "Material of a leaf list or QSM: a species, or any name")
+      ->capture_default_str();
+  c->add_option("--leaf-area", in.leaf_area_m2,
+                "QSM: put this leaf area (m2, one-sided) of the species on the twigs; default: none");
+  c->add_option("--elements", in.elements, "QSM: number of leaves or shoots for --leaf-area")
       ->capture_default_str();
   c->add_option("--leaf", in.leaf_materials, "FILE_MATERIAL=MATERIAL that is two-sided leaf; repeatable");
   c->add_option("--wood", in.wood_materials, "FILE_MATERIAL=MATERIAL that is opaque wood; repeatable");
@@ -136,17 +145,22 @@ void add_files(CLI::App& app, InfoOptions& info, ImportOptions& in, ExportOption
   c->footer(
       "Examples:\n  sunfleck import crown_discs.txt.gz --instances centres.txt --period -50 -50 100 100 -o "
       "het01.vdb\n"
-      "  sunfleck import oak.obj --leaf leaves=\"Quercus robur\" --wood bark=\"Quercus robur\" -o oak.vdb");
+      "  sunfleck import oak.obj --leaf leaves=\"Quercus robur\" --wood bark=\"Quercus robur\" -o oak.vdb\n"
+      "  sunfleck import scan.csv --material \"Fagus sylvatica\" --leaf-area 180 -o beech.vdb");
 
-  c = app.add_subcommand("export", "Write a prototype or the tree list of a forest in a format others read");
+  c = app.add_subcommand("export", "Write a forest, a prototype or the tree list in a format others read");
   c->add_option("forest", out.forest, "Forest (.vdb)")->required();
   c->add_option("-o,--output", out.output, "File to write")->required();
-  c->add_option("--format", out.format, "obj, leaves (leaf list) or trees (CSV)")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"obj", "leaves", "trees"}));
+  c->add_option("--format", out.format,
+                "gltf (all trees, instanced), obj, ply, qsm (cylinders, CSV) or leaves (leaf list) of one "
+                "prototype, or "
+                "trees (CSV); default: by extension .glb, .obj, .ply, else obj")
+      ->check(CLI::IsMember({"gltf", "obj", "ply", "qsm", "leaves", "trees"}));
   c->add_option("--prototype", out.prototype, "Number of the prototype, from 0")->capture_default_str();
   c->footer(
       "Examples:\n  sunfleck export stand.vdb --prototype 2 -o beech.obj\n"
+      "  sunfleck export stand.vdb -o stand.glb\n"
+      "  sunfleck export stand.vdb --format qsm --prototype 0 -o cylinders.csv\n"
       "  sunfleck export stand.vdb --format trees -o trees.csv");
 }
 
@@ -283,6 +297,7 @@ int run(int argc, char** argv) {
   return run_and_report([&] {
     if (command == "serve") return run_serve(serve);
     const RunControl control = terminal_control();
+    if (command == "export") return run_export(export_options, control);
     if (command == "grow") return run_grow(grow, control);
     if (command == "light") return run_light(light, control);
     if (command == "calibrate") return run_calibrate(calibrate_options, control);
@@ -291,7 +306,6 @@ int run(int argc, char** argv) {
     if (command == "inventory") return run_inventory_check(inventory);
     if (command == "info") return run_info(info);
     if (command == "import") return run_import(import_options);
-    if (command == "export") return run_export(export_options);
     if (command == "client") return run_client(client, control);
     return run_bench(bench, control);
   });

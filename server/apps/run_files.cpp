@@ -14,6 +14,9 @@
 #include "server/apps/terminal.h"
 #include "sim/base/error.h"
 #include "sim/base/pending_file.h"
+#include "sim/exchange/attach_leaves.h"
+#include "sim/exchange/gltf.h"
+#include "sim/exchange/qsm.h"
 #include "sim/grid/forest_file.h"
 #include "sim/plant/make_prototype.h"
 
@@ -55,6 +58,19 @@ std::map<std::string, std::string> read_pairs(const std::vector<std::string>& pa
   return result;
 }
 
+Prototype read_qsm(const ImportOptions& o, ImportReport& report) {
+  QsmReport found;
+  Prototype tree = import_qsm(o.file, o.material, &found);
+  report.warnings = std::move(found.warnings);
+  if (o.leaf_area_m2 == 0.0) {
+    report.warnings.push_back("the tree has no leaves: --leaf-area puts some on its twigs");
+    return tree;
+  }
+  const SpeciesLibrary library = SpeciesLibrary::load(find_configs(o.configs) / "species");
+  attach_leaves(tree, library.find(o.material, "--material"), {o.leaf_area_m2, o.elements, 1});
+  return tree;
+}
+
 Prototype read_prototype(const ImportOptions& o, ImportReport& report) {
   std::string format = o.format.empty() ? o.file.extension().string() : "." + o.format;
   if (format == ".obj" || format == ".ply")
@@ -62,7 +78,8 @@ Prototype read_prototype(const ImportOptions& o, ImportReport& report) {
         o.file, {read_pairs(o.leaf_materials, "--leaf"), read_pairs(o.wood_materials, "--wood")}, &report);
   if (format == ".leaves" || format == ".txt" || format == ".gz" || format == ".def")
     return import_leaf_list(o.file, o.material, &report);
-  throw_invalid(o.file.string(), "cannot tell the format", "--format leaves, obj or ply");
+  if (format == ".csv" || format == ".qsm") return read_qsm(o, report);
+  throw_invalid(o.file.string(), "cannot tell the format", "--format leaves, obj, ply or qsm");
 }
 
 // x y z [scale azimuth_deg] per line; # comments.
@@ -132,6 +149,32 @@ void export_trees(const Forest& forest, const std::filesystem::path& path) {
   write_whole_file(path, out.str());
 }
 
+std::string export_format(const ExportOptions& o) {
+  if (!o.format.empty()) return o.format;
+  const std::string extension = o.output.extension().string();
+  if (extension == ".glb") return "gltf";
+  return extension == ".ply" ? "ply" : "obj";
+}
+
+const Prototype& chosen_prototype(const Forest& forest, const ExportOptions& o) {
+  if (o.prototype >= forest.prototypes.size())
+    throw_invalid("--prototype", "there is no prototype " + std::to_string(o.prototype),
+                  forest.prototypes.empty() ? "a forest that is not empty"
+                                            : "0 to " + std::to_string(forest.prototypes.size() - 1));
+  return forest.prototypes[o.prototype];
+}
+
+void note_left_out(std::size_t left_out, const char* what) {
+  if (left_out > 0) std::printf("note         %s %s and were left out\n", grouped(left_out).c_str(), what);
+}
+
+void export_whole(const Forest& forest, const std::filesystem::path& path, const RunControl& control) {
+  const GltfReport report = export_gltf(forest, path, control);
+  std::printf("glTF         %s meshes, %s trees, %s triangles, %.1f MB\n", grouped(report.meshes).c_str(),
+              grouped(report.nodes).c_str(), grouped(report.triangles).c_str(),
+              static_cast<double>(report.bytes) / 1e6);
+}
+
 }  // namespace
 
 void run_info(const InfoOptions& o) {
@@ -165,22 +208,22 @@ void run_import(const ImportOptions& o) {
   std::printf("wrote        %s\n", o.output.c_str());
 }
 
-void run_export(const ExportOptions& o) {
+void run_export(const ExportOptions& o, const RunControl& control) {
   const Forest forest = load_forest(o.forest);
-  if (o.format == "trees") {
+  const std::string format = export_format(o);
+  if (format == "gltf")
+    export_whole(forest, o.output, control);
+  else if (format == "trees")
     export_trees(forest, o.output);
-  } else {
-    if (o.prototype >= forest.prototypes.size())
-      throw_invalid("--prototype", "there is no prototype " + std::to_string(o.prototype),
-                    "0 to " + std::to_string(forest.prototypes.size() - 1));
-    const Prototype& p = forest.prototypes[o.prototype];
-    if (o.format == "obj") {
-      export_obj(p, o.output);
-    } else if (const std::size_t left_out = export_leaf_list(p, o.output); left_out > 0) {
-      std::printf("note         %s elements are neither discs nor quads and were left out\n",
-                  grouped(left_out).c_str());
-    }
-  }
+  else if (format == "obj")
+    export_obj(chosen_prototype(forest, o), o.output);
+  else if (format == "ply")
+    export_ply(chosen_prototype(forest, o), o.output);
+  else if (format == "qsm")
+    note_left_out(export_qsm(chosen_prototype(forest, o), o.output), "triangles of wood are no cylinders");
+  else
+    note_left_out(export_leaf_list(chosen_prototype(forest, o), o.output),
+                  "elements are neither discs nor quads");
   std::printf("wrote        %s\n", o.output.c_str());
 }
 

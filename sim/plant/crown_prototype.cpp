@@ -13,48 +13,13 @@
 #include "sim/plant/crown_stem.h"
 #include "sim/plant/leaf_angle_sampling.h"
 #include "sim/plant/make_prototype.h"
+#include "sim/plant/template_element.h"
 
 namespace sunfleck {
 namespace {
 
 constexpr int kMostElements = 50'000'000;
 constexpr int kMostTries = 64;  // to find a place outside stem and ground; then the last one is taken
-
-// Half edges of an element of the given area; the first axis of the frame is the leaf's length.
-struct HalfEdges {
-  Vec3 u_m, v_m;
-};
-
-// Parallelogram (here: rectangle) of the species' length to width, 4 |u| |v| = area.
-HalfEdges leaf_edges(const FoliageTemplate& foliage, double area_m2, const Vec3& length_axis,
-                     const Vec3& width_axis) {
-  const double ratio = foliage.leaf_length_m / foliage.leaf_width_m;
-  const double half_width_m = 0.5 * std::sqrt(area_m2 / ratio);
-  return {half_width_m * ratio * length_axis, half_width_m * width_axis};
-}
-
-// The template shoot scaled in all directions: needle area per volume stays.
-HalfEdges shoot_edges(const FoliageTemplate& foliage, double area_m2, const Vec3& axis, const Vec3& across) {
-  const double scale = std::cbrt(area_m2 / foliage.shoot_area_m2());
-  return {0.5 * scale * foliage.shoot_length_m * axis, scale * foliage.shoot_radius_m * across};
-}
-
-FoliageElement make_element(const FoliageTemplate& foliage, double area_m2, const Vec3& centre_m,
-                            const Vec3& normal, double turn_rad) {
-  const Basis basis = basis_around(normal);
-  const Vec3 first = std::cos(turn_rad) * basis.tangent + std::sin(turn_rad) * basis.bitangent;
-  const Vec3 second = glm::cross(normal, first);
-  const bool is_leaf = foliage.kind == FoliageKind::kLeaf;
-  const HalfEdges edges =
-      is_leaf ? leaf_edges(foliage, area_m2, first, second) : shoot_edges(foliage, area_m2, first, second);
-  FoliageElement element;
-  element.centre_m = Vec3f(centre_m);
-  element.half_u_m = Vec3f(edges.u_m);
-  element.half_v_m = Vec3f(edges.v_m);
-  element.area_m2 = static_cast<float>(area_m2);
-  element.shape = is_leaf ? ElementShape::kParallelogram : ElementShape::kShoot;
-  return element;
-}
 
 bool stands_free(const CrownShape& crown, const FoliageElement& element) {
   const Vec3 c(element.centre_m);
@@ -90,7 +55,7 @@ FoliageElement place_element(const Species& species, const CrownShape& crown, co
   for (int i = 0; i < kMostTries; ++i) {
     const Vec3 centre_m = sampler.sample(number, share, random);
     const Vec3 normal = sample_leaf_normal(species.foliage.angles, random);
-    element = make_element(species.foliage, area_m2, centre_m, normal, random.uniform(0.0, 2.0 * kPi));
+    element = template_element(species.foliage, area_m2, centre_m, normal, random.uniform(0.0, 2.0 * kPi));
     if (stands_free(crown, element)) break;
   }
   return element;

@@ -72,7 +72,8 @@ struct ImportReport {
 Prototype import_leaf_list(const std::filesystem::path& path, const std::string& material,
                            ImportReport* report = nullptr);
 
-// OBJ or PLY (ascii or little-endian). Faces of materials (OBJ usemtl, else group; PLY: one material "") in
+// OBJ or PLY (ascii or little-endian). Faces of materials (OBJ usemtl, else group; PLY: the face property
+// material_index with names in lines "comment material INDEX NAME", else one material "") in
 // `leaf_materials` (file material -> forest material name) become two-sided leaves, those in
 // `wood_materials` opaque wood; any other is an error.
 struct MeshMaterials {
@@ -85,6 +86,8 @@ Prototype import_mesh(const std::filesystem::path& path, const MeshMaterials& ma
 // and wood segments as eight-sided prisms; materials "leaf_<name>", "shoot_<name>" and "wood_<name>" with _
 // for blanks.
 void export_obj(const Prototype& prototype, const std::filesystem::path& path);
+// The same as binary PLY, with material_index per face as import_mesh reads it.
+void export_ply(const Prototype& prototype, const std::filesystem::path& path);
 // Writes the discs and parallelograms of a prototype in the formats import_leaf_list reads, renamed into
 // place; returns how many elements the format cannot hold (triangles, shoots).
 std::size_t export_leaf_list(const Prototype& prototype, const std::filesystem::path& path);

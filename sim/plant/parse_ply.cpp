@@ -95,7 +95,7 @@ class PlyParser {
       : header_(parse_ply_header(content, file)),
         values_(content.substr(std::min(header_.data_begin, content.size())), header_, file),
         file_(file) {
-    mesh_.materials = {""};
+    mesh_.materials = header_.materials.empty() ? std::vector<std::string>{""} : header_.materials;
     mesh_.face_place = header_.format == PlyFormat::kAscii ? ":" : ": face ";
   }
 
@@ -141,12 +141,25 @@ class PlyParser {
   }
 
   void read_face(const PlyElement& element, std::size_t number) {
+    const std::size_t faces_before = mesh_.faces.size();
+    std::uint32_t material = 0;
     for (const PlyProperty& property : element.properties) {
       if (property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index"))
         read_corners(property, number);
+      else if (property.name == "material_index" && !property.is_list && !header_.materials.empty())
+        material = read_material(property);
       else
         pass_over(property);
     }
+    if (mesh_.faces.size() > faces_before) mesh_.faces.back().material = material;
+  }
+
+  std::uint32_t read_material(const PlyProperty& property) {
+    const double index = values_.next(property.type);
+    if (!(index >= 0.0 && index < static_cast<double>(mesh_.materials.size())) || index != std::floor(index))
+      throw_invalid(values_.where(), "a face has a material_index that the head does not name",
+                    "give 0 to " + std::to_string(mesh_.materials.size() - 1));
+    return static_cast<std::uint32_t>(index);
   }
 
   void read_corners(const PlyProperty& property, std::size_t number) {

@@ -45,6 +45,13 @@ PlyProperty parse_property(const Words& words, const std::string& where) {
   throw_invalid(where, "is no property", "write \"property TYPE NAME\" or \"property list TYPE TYPE NAME\"");
 }
 
+// Our own exports name the materials of their faces so; any other comment says nothing to us.
+void add_comment(const Words& words, PlyHeader& header) {
+  if (words.size() != 4 || words[1] != "material" || words[2] != std::to_string(header.materials.size()))
+    return;
+  header.materials.emplace_back(words[3]);
+}
+
 void add_statement(const Words& words, const std::string& where, PlyHeader& header) {
   if (words[0] == "format") {
     header.format = parse_format(words, where);
@@ -53,7 +60,9 @@ void add_statement(const Words& words, const std::string& where, PlyHeader& head
   } else if (words[0] == "property") {
     if (header.elements.empty()) throw_invalid(where, "a property before any element", "name its element");
     header.elements.back().properties.push_back(parse_property(words, where));
-  } else if (words[0] != "comment" && words[0] != "obj_info") {
+  } else if (words[0] == "comment") {
+    add_comment(words, header);
+  } else if (words[0] != "obj_info") {
     throw_invalid(where, "unknown word \"" + std::string(words[0].substr(0, 40)) + "\" in the head",
                   "use format, element, property, comment, obj_info, end_header");
   }

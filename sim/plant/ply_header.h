@@ -30,8 +30,9 @@ enum class PlyFormat { kAscii, kBinaryLittleEndian };
 struct PlyHeader {
   PlyFormat format = PlyFormat::kAscii;
   std::vector<PlyElement> elements;
-  std::size_t data_begin = 0;  // offset of the first byte after the head
-  std::size_t lines = 0;       // of the head
+  std::size_t data_begin = 0;          // offset of the first byte after the head
+  std::size_t lines = 0;               // of the head
+  std::vector<std::string> materials;  // "comment material INDEX NAME", in order of their indexes from 0
 };
 
 PlyHeader parse_ply_header(std::string_view content, const std::string& file);

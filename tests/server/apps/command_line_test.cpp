@@ -113,6 +113,22 @@ TEST(CommandLine, ImportsAndExportsAPrototype) {
   EXPECT_GT(fs::file_size(obj), 100u);
 }
 
+TEST(CommandLine, AScannedTreeGetsLeavesAndGoesOutAgain) {
+  const fs::path cylinders = write_file(
+      "scan.csv", "id,parent,x,y,z,end_x,end_y,end_z,radius\n1,0,0,0,0,0,0,2,0.1\n2,1,0,0,2,1,0,2,0.005\n");
+  const fs::path vdb = test::scratch_dir() / "scan.vdb", glb = test::scratch_dir() / "scan.glb",
+                 csv = test::scratch_dir() / "again.csv";
+  const Ran in = run("import " + cylinders.string() +
+                     " --material 'Fagus sylvatica' --leaf-area 3 --elements 50 -o " + vdb.string());
+  EXPECT_EQ(in.code, 0) << in.text;
+  EXPECT_NE(in.text.find("50 foliage elements"), std::string::npos) << in.text;
+  const Ran out = run("export " + vdb.string() + " -o " + glb.string());
+  EXPECT_EQ(out.code, 0) << out.text;
+  EXPECT_NE(out.text.find("1 meshes, 1 trees"), std::string::npos) << out.text;
+  EXPECT_EQ(run("export " + vdb.string() + " --format qsm -o " + csv.string()).code, 0);
+  EXPECT_GT(fs::file_size(csv), 100u);
+}
+
 TEST(CommandLine, TellsOneClearErrorAndLeavesNothingBehind) {
   const std::string out = (test::scratch_dir() / "never.vdb").string(),
                     nc = (test::scratch_dir() / "never.nc").string(),
