@@ -101,8 +101,8 @@ StandTable plot_table(const StandStudy& study) {
   return table;
 }
 
-void count_own_trees(const StandStudy& study, const std::vector<std::size_t>& trees, double area_m2,
-                     StandTable& plot) {
+void count_own_trees(const StandStudy& study, const std::vector<std::size_t>& trees, StandTable& plot) {
+  const double area_m2 = study.spec.plot_area_m2;
   const double map_m2 = study.period->map.cell_area_m2() * static_cast<double>(study.period->map.count());
   double leaf_m2 = 0;
   for (const std::size_t t : trees) leaf_m2 += study.period->tree_leaf_area_m2[t];

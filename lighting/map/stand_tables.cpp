@@ -125,6 +125,14 @@ const StandVariable* StandTables::find(StandTarget target, const std::string& na
   return table ? table->find(name) : nullptr;
 }
 
+StandTable plot_figures(const StandStudy& study, const Forest& forest) {
+  StandTable plot = stand::plot_table(study);
+  const std::vector<std::size_t> own = rows_of(forest, false);
+  if (study.period && own.size() < forest.instances.size() && study.spec.plot_area_m2 > 0)
+    stand::count_own_trees(study, own, plot);
+  return plot;
+}
+
 StandTables stand_tables(const StandStudy& study, const Forest& forest, const StandTableOptions& options) {
   SUNFLECK_EXPECTS(study.period || study.world);
   const std::vector<std::size_t> rows = rows_of(forest, options.virtual_trees);
@@ -136,8 +144,7 @@ StandTables stand_tables(const StandStudy& study, const Forest& forest, const St
   all.begin_s = study.interval_begin_s;
   all.end_s = study.interval_end_s;
   all.trees = describe_trees(forest, rows);
-  const std::vector<std::size_t> own = rows_of(forest, false);
-  all.virtual_trees = forest.instances.size() - own.size();
+  all.virtual_trees = forest.instances.size() - rows_of(forest, false).size();
   if (study.period) all.sensors = study.spec.sensors;
   all.map = study.period ? study.period->map : study.world->map;
   all.provenance = study.provenance;
@@ -151,10 +158,7 @@ StandTables stand_tables(const StandStudy& study, const Forest& forest, const St
         all.ring_bounds_deg.push_back(ring.to_deg);
     }
   }
-  StandTable plot = stand::plot_table(study);
-  if (study.period && all.virtual_trees > 0 && options.plot_area_m2 > 0)
-    stand::count_own_trees(study, own, options.plot_area_m2, plot);
-  keep(std::move(plot), all);
+  keep(plot_figures(study, forest), all);
   keep(stand::angle_table(study), all);
   keep(stand::tree_table(study, rows), all);
   keep(stand::sensor_table(study), all);

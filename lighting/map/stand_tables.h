@@ -73,13 +73,13 @@ struct StandTables {
 
 struct StandTableOptions {
   bool virtual_trees = false;  // keep them in the tree table
-  // Ground area of the inventoried plot. With virtual trees around it, leaf area index and absorbed fraction
-  // are those of the plot's own trees over this area; 0: of all trees over the map.
-  double plot_area_m2 = 0;
 };
 // `forest`: the one of the study.
 StandTables stand_tables(const StandStudy& study, const Forest& forest,
                          const StandTableOptions& options = {});
+
+// The plot's table alone.
+StandTable plot_figures(const StandStudy& study, const Forest& forest);
 
 // "PAR" -> "par", "Near IR" -> "near_ir": a band's name as part of a variable's.
 std::string band_word(const std::string& band);

@@ -55,9 +55,8 @@ void add_absorbed(const StandStudy& study, const std::vector<std::size_t>& rows,
 
 // The tables, one function each; rows and variables stay empty where the study has none.
 StandTable plot_table(const StandStudy& study);
-// Leaf area index and absorbed fractions of these trees over that area, in place of all trees over the map.
-void count_own_trees(const StandStudy& study, const std::vector<std::size_t>& trees, double area_m2,
-                     StandTable& plot);
+// Leaf area index and absorbed fractions of these trees over the plot, in place of all trees over the map.
+void count_own_trees(const StandStudy& study, const std::vector<std::size_t>& trees, StandTable& plot);
 StandTable angle_table(const StandStudy& study);
 StandTable tree_table(const StandStudy& study, const std::vector<std::size_t>& rows);
 StandTable sensor_table(const StandStudy& study);

@@ -39,6 +39,9 @@ struct StandStudySpec {
   ParFactors par;
   double ground_cell_m = 5, layer_m = 1;
   std::optional<Vec2> map_lo_m, map_hi_m;  // the part of the ground asked about; else period or forest bounds
+  // Ground of the inventoried plot. With virtual trees around it, leaf area index and absorbed fraction are
+  // those of the plot's own trees over this area; 0: of all trees over the map.
+  double plot_area_m2 = 0;
   StandEngine engine = StandEngine::kAuto;
   bool scattering = true;
   bool canopy_views = true;  // openness, gaps, leaf area at the sensors

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "server/apps/stand_files.h"
 #include "sim/base/run_control.h"
 
 namespace sunfleck {
@@ -33,8 +34,8 @@ struct RenderOptions {
 void run_render(const RenderOptions& options, const RunControl& control);
 
 struct StandOptions {
-  std::filesystem::path scene, forest, netcdf, csv, report, pictures, photographs, configs;
-  int photograph_px = 600;
+  std::filesystem::path scene, forest, configs;
+  StandFiles files;
 };
 void run_stand(const StandOptions& options, const RunControl& control);
 
@@ -99,7 +100,8 @@ void run_serve(const ServeOptions& options);
 struct ClientOptions {
   std::string action;  // info, create, list, delete, light, stand, render
   std::string address, scene_name;
-  std::filesystem::path scene, netcdf, element_csv, tree_csv, json, png, exr, configs;
+  std::filesystem::path scene, output, csv, tree_csv, json, png, exr, configs;
+  StandFiles stand;  // but netcdf and csv, which are `output` and `csv` here
   std::string method;
 };
 void run_client(const ClientOptions& options, const RunControl& control);

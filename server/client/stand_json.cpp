@@ -73,8 +73,8 @@ std::string summary_json(const StandArrays& arrays) {
 
 }  // namespace
 
-std::string stand_json(const StandStudy& study) {
-  const StandArrays arrays(std::make_shared<const StandStudy>(study));
+std::string stand_json(const StandStudy& study, const Forest* forest) {
+  const StandArrays arrays(std::make_shared<const StandStudy>(study), forest);
   std::string out = "{\"summary\":" + summary_json(arrays) + ",\"arrays\":{";
   for (std::size_t i = 0; i < arrays.views().size(); ++i) {
     out += i > 0 ? ",\n" : "\n";

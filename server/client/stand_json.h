@@ -9,6 +9,7 @@
 namespace sunfleck {
 
 // {"summary": {...}, "arrays": {name: {"shape": [..], "columns": [..], "values": [..]}}}; values row-major.
-std::string stand_json(const StandStudy& study);
+// `forest`: the one of the study; null: without the array "plot".
+std::string stand_json(const StandStudy& study, const Forest* forest);
 
 }  // namespace sunfleck

@@ -79,7 +79,8 @@ void ArrayAssembler::begin(const v1::ArrayHeader& header) {
   constexpr std::uint64_t kMostBytes = 1ull << 40;
   if (header.array_index() != arrays_.size()) refuse(header.name(), "announced out of order");
   if (header.size_bytes() > kMostBytes) refuse(header.name(), "announced with an impossible size");
-  ReceivedArray array{header.name(), type_from_message(header), {}, {}};
+  ReceivedArray array{header.name(), type_from_message(header), {}, {}, {}};
+  array.columns.assign(header.columns().begin(), header.columns().end());
   array.shape.assign(header.shape().begin(), header.shape().end());
   arrays_.push_back(std::move(array));
   sizes_.push_back(header.size_bytes());

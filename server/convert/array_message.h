@@ -36,6 +36,7 @@ struct ReceivedArray {
   std::string name;
   ElementType type = ElementType::kUint8;
   std::vector<std::uint64_t> shape;
+  std::vector<std::string> columns;
   std::string bytes;
 };
 

@@ -1,6 +1,7 @@
 // Head comment in stand_answer.h: lighting to the wire.
 #include "server/convert/stand_answer.h"
 
+#include "lighting/map/stand_tables.h"
 #include "server/convert/light_map_message.h"
 #include "server/convert/stand_columns.h"
 #include "server/convert/stand_fields.h"
@@ -80,7 +81,8 @@ void fill_fit(const SensorFit& fit, v1::SensorFit& message) {
 
 }  // namespace
 
-StandArrays::StandArrays(std::shared_ptr<const StandStudy> study) : study_(std::move(study)) {
+StandArrays::StandArrays(std::shared_ptr<const StandStudy> study, const Forest* forest)
+    : study_(std::move(study)) {
   Collect collect(views_, gathered_);
   if (study_->period) {
     for (const TreeId tree : study_->period->tree_ids) tree_ids_.push_back(tree.value);
@@ -91,6 +93,19 @@ StandArrays::StandArrays(std::shared_ptr<const StandStudy> study) : study_(std::
   }
   if (study_->parts) visit_intervals("parts/", *study_->parts, collect);
   if (study_->world) visit_world(*study_->world, collect);
+  if (forest) add_plot(*forest);
+}
+
+// One row per interval; what is the same in all of them stands in every row.
+void StandArrays::add_plot(const Forest& forest) {
+  const StandTable plot = plot_figures(*study_, forest);
+  std::vector<double>& values = gathered_.emplace_back();
+  std::vector<std::string> columns;
+  for (const StandVariable& v : plot.variables) columns.push_back(v.column());
+  for (std::size_t i = 0; i < study_->intervals.size(); ++i)
+    for (const StandVariable& v : plot.variables) values.push_back(v.value[v.per_interval ? i : 0]);
+  views_.push_back(
+      {"plot", ElementType::kFloat64, {study_->intervals.size(), columns.size()}, columns, bytes_of(values)});
 }
 
 void StandArrays::add_canopy(const std::vector<SensorCanopy>& canopy) {

@@ -19,7 +19,8 @@ class StandLightSummary;
 // Views of the study's tables, and the columns that had to be gathered.
 class StandArrays {
  public:
-  explicit StandArrays(std::shared_ptr<const StandStudy> study);
+  // `forest`: the one of the study, needed while this is made; null: without the array "plot".
+  StandArrays(std::shared_ptr<const StandStudy> study, const Forest* forest);
   StandArrays(const StandArrays&) = delete;
   StandArrays& operator=(const StandArrays&) = delete;
 
@@ -29,6 +30,7 @@ class StandArrays {
 
  private:
   void add_canopy(const std::vector<SensorCanopy>& canopy);
+  void add_plot(const Forest& forest);
   const std::shared_ptr<const StandStudy> study_;
   std::deque<std::vector<double>> gathered_;  // stay where they are
   std::vector<std::uint32_t> tree_ids_;

@@ -169,6 +169,8 @@ void read_map(const v1::StandLightSpec& message, const std::string& field, Viola
   if (message.has_layer_m()) spec.layer_m = message.layer_m();
   violations.number(field + ".ground_cell_m", spec.ground_cell_m, 0.01, 1e4);
   violations.number(field + ".layer_m", spec.layer_m, 0.01, 1e3);
+  if (message.has_plot_area_m2()) spec.plot_area_m2 = message.plot_area_m2();
+  violations.number(field + ".plot_area_m2", spec.plot_area_m2, 0, 1e12);
   if (!message.has_map()) return;
   const v1::MapArea& map = message.map();
   spec.map_lo_m = Vec2(map.x_from_m(), map.y_from_m());

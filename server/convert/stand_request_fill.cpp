@@ -69,6 +69,7 @@ void fill_optics(const OpticsRequest& optics, v1::StandLightSpec& message) {
 void fill_map(const StandStudySpec& spec, v1::StandLightSpec& message) {
   message.set_ground_cell_m(spec.ground_cell_m);
   message.set_layer_m(spec.layer_m);
+  message.set_plot_area_m2(spec.plot_area_m2);
   if (!spec.map_lo_m || !spec.map_hi_m) return;
   message.mutable_map()->set_x_from_m(spec.map_lo_m->x);
   message.mutable_map()->set_y_from_m(spec.map_lo_m->y);

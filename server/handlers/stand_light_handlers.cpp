@@ -52,8 +52,9 @@ StandStudy study_of(const StoredScene& scene, const StandStudySpec& spec, const 
 }
 
 // The arrays, then the summary, then nothing.
-StandLightCall::Next arrays_then_summary(StandStudy study) {
-  auto arrays = std::make_shared<const StandArrays>(std::make_shared<const StandStudy>(std::move(study)));
+StandLightCall::Next arrays_then_summary(StandStudy study, const Forest& forest) {
+  auto arrays =
+      std::make_shared<const StandArrays>(std::make_shared<const StandStudy>(std::move(study)), &forest);
   return [arrays, source = ArraySource(arrays->views()),
           summary_sent = false](v1::StreamStandLightResponse& message) mutable {
     switch (source.next()) {
@@ -83,7 +84,7 @@ grpc::ServerWriteReactor<v1::StreamStandLightResponse>* StandLightHandlers::Stre
                                  const StandCost cost = predicted_cost(scene->forest, spec);
                                  check_memory(cost, state_.limits);
                                  call.push(header_of(*scene, spec, cost));
-                                 return arrays_then_summary(study_of(*scene, spec, control));
+                                 return arrays_then_summary(study_of(*scene, spec, control), scene->forest);
                                });
 }
 

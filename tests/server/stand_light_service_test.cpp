@@ -1,5 +1,6 @@
 // Served stand light equals computed stand light, bit by bit, whatever was asked for; two requests at once do
 // not touch each other; what it would take is told and bounded.
+#include <grpcpp/grpcpp.h>
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -7,10 +8,12 @@
 #include <functional>
 #include <future>
 
+#include "lighting/map/stand_tables.h"
 #include "lighting/study/stand_cost.h"
 #include "server/convert/stand_answer.h"
+#include "server/convert/stand_request.h"
 #include "sim/base/error.h"
-#include "sunfleck/v1/stand_light.pb.h"
+#include "sunfleck/v1/stand_light.grpc.pb.h"
 #include "tests/server/stand_scene.h"
 #include "tests/support/golden.h"
 
@@ -38,8 +41,8 @@ std::string summary_bytes(const StandArrays& arrays) {
 }
 
 void expect_same(const StandStudy& served, const StandStudy& local) {
-  const StandArrays a(std::make_shared<const StandStudy>(served)),
-      b(std::make_shared<const StandStudy>(local));
+  const StandArrays a(std::make_shared<const StandStudy>(served), nullptr),
+      b(std::make_shared<const StandStudy>(local), nullptr);
   ASSERT_EQ(a.views().size(), b.views().size());
   for (std::size_t i = 0; i < b.views().size(); ++i) {
     EXPECT_EQ(a.views()[i].name, b.views()[i].name);
@@ -70,6 +73,25 @@ void expect_same_frame(const StandLight& served, const StandLight& local) {
     EXPECT_EQ(served.canopy[s].rings_10_deg[8].log_mean_gap, local.canopy[s].rings_10_deg[8].log_mean_gap);
     EXPECT_EQ(served.canopy[s].rings_lai2000[4].gap_fraction, local.canopy[s].rings_lai2000[4].gap_fraction);
   }
+}
+
+// One array of a stream as it came.
+ReceivedArray received(const std::shared_ptr<grpc::Channel>& channel,
+                       const v1::StreamStandLightRequest& request, const std::string& name) {
+  const auto stub = v1::StandLightService::NewStub(channel);
+  grpc::ClientContext context;
+  const auto reader = stub->StreamStandLight(&context, request);
+  ArrayAssembler arrays;
+  v1::StreamStandLightResponse part;
+  while (reader->Read(&part)) {
+    if (part.has_array()) arrays.begin(part.array());
+    if (part.has_chunk()) arrays.add(part.chunk());
+  }
+  EXPECT_TRUE(reader->Finish().ok());
+  for (ReceivedArray& array : arrays.finish())
+    if (array.name == name) return std::move(array);
+  ADD_FAILURE() << "no array " << name;
+  return {};
 }
 
 struct Case {
@@ -138,6 +160,46 @@ const Case kCases[] = {
 INSTANTIATE_TEST_SUITE_P(All, EveryKind, ::testing::ValuesIn(kCases),
                          [](const auto& test) { return test.param.name; });
 
+// A client that knows nothing but the wire gets the figures of the plot that `sunfleck stand` writes: without
+// the trees around it that nobody measured.
+TEST_F(StandLightService, PlotFiguresLeaveVirtualTreesOut) {
+  ForestSpec stand = tiny_stand();
+  stand.period.reset();
+  stand.plot = rectangle({-2, -5}, {14, 5});
+  stand.surroundings = Surroundings::kSimilar;
+  stand.surroundings_width_m = 6;
+  StandStudySpec spec = tiny_study();
+  spec.map_lo_m = Vec2(-2, -5), spec.map_hi_m = Vec2(14, 5);
+  const Forest forest = grow_forest(stand, species(), {});
+  for (const double area_m2 : {0.0, 160.0}) {
+    spec.plot_area_m2 = area_m2;
+    v1::StreamStandLightRequest request;
+    request.set_scene(server_->client().create_scene(stand).name);
+    fill_message(spec, *request.mutable_stand_light());
+    const ReceivedArray plot = received(server_->channel(), request, "plot");
+    const StandStudy local = run_stand_study(forest, spec, {});
+    const StandTable table = *stand_tables(local, forest).find(StandTarget::kPlot);
+    ASSERT_EQ(plot.columns.size(), table.variables.size());
+    std::vector<double> values(plot.bytes.size() / sizeof(double));
+    ASSERT_EQ(values.size(), 3 * table.variables.size());
+    std::memcpy(values.data(), plot.bytes.data(), plot.bytes.size());
+    for (std::size_t c = 0; c < plot.columns.size(); ++c) {
+      const StandVariable& v = table.variables[c];
+      EXPECT_EQ(plot.columns[c], v.column());
+      for (std::size_t i = 0; i < 3; ++i)
+        EXPECT_EQ(values[i * plot.columns.size() + c], v.value[v.per_interval ? i : 0]) << v.name;
+    }
+    double own_m2 = 0, all_m2 = 0;
+    for (std::size_t t = 0; t < forest.instances.size(); ++t) {
+      all_m2 += local.period->tree_leaf_area_m2[t];
+      if (!is_virtual(forest.instances[t].tree)) own_m2 += local.period->tree_leaf_area_m2[t];
+    }
+    ASSERT_LT(own_m2, all_m2);  // there are virtual trees
+    const double lai = table.find("leaf_area_index")->value[0];
+    EXPECT_NEAR(lai, (area_m2 > 0 ? own_m2 : all_m2) / 160.0, 1e-9 * lai);
+  }
+}
+
 TEST_F(StandLightService, RadiationFilesAreReadByTheClient) {
   StandStudySpec spec = tiny_study();
   spec.radiation = scratch_dir() / "radiation.csv";
@@ -170,7 +232,8 @@ TEST_F(StandLightService, SaysWhatItWouldTake) {
   EXPECT_EQ(told.intervals, 2u);
   EXPECT_EQ(told.ground_cells, 12);
   EXPECT_EQ(told.rays, 12 * 30);
-  const StandArrays arrays(std::make_shared<const StandStudy>(client.stand_light(scene, tiny_study())));
+  const StandArrays arrays(std::make_shared<const StandStudy>(client.stand_light(scene, tiny_study())),
+                           nullptr);
   // Not in the prediction: what is no table of the intervals (leaf area, gap rings), a few kilobytes here.
   EXPECT_NEAR(told.result_bytes, static_cast<double>(arrays.size_bytes()), 4000);
   EXPECT_GT(told.memory_bytes, told.result_bytes);
@@ -193,7 +256,7 @@ TEST_F(StandLightService, ServedAgainIsTheSame) {
     run_stand_study(forest, tiny_study(), {});
     local_s = std::min(local_s, seconds_since(start_local));
   }
-  const StandArrays arrays(std::make_shared<const StandStudy>(first));
+  const StandArrays arrays(std::make_shared<const StandStudy>(first), nullptr);
   std::printf("served %.2f ms, in process %.2f ms, %zu arrays of %.3f MB\n", served_s * 1e3, local_s * 1e3,
               arrays.views().size(), static_cast<double>(arrays.size_bytes()) * 1e-6);
 }

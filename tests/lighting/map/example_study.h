@@ -42,6 +42,7 @@ inline StandStudySpec example_study_spec() {
   spec.ground_cell_m = 4.5;
   spec.layer_m = 2;
   spec.map_lo_m = Vec2(0, 0), spec.map_hi_m = Vec2(18, 18);
+  spec.plot_area_m2 = 324;
   spec.rays_per_cell = 300;
   spec.sensor_sun_rays = 2, spec.sensor_sky_rays = 4;
   spec.patch_deg = 15, spec.bin_deg = 10;
@@ -55,7 +56,7 @@ inline StandStudySpec example_study_spec() {
 struct ExampleStudy {
   Forest forest = example_stand();
   StandStudy study = run_stand_study(forest, example_study_spec(), {});
-  StandTables tables = stand_tables(study, forest, {.plot_area_m2 = 324});
+  StandTables tables = stand_tables(study, forest);
 };
 inline const ExampleStudy& example_study() {
   static const ExampleStudy made;

@@ -1,0 +1,54 @@
+// Head comment in command_options.h: server and client.
+#include <CLI/CLI.hpp>
+
+#include "server/apps/command_options.h"
+
+namespace sunfleck {
+
+namespace {
+
+void add_client_files(CLI::App* c, ClientOptions& o) {
+  c->add_option("-o,--output,--netcdf", o.output, "light, stand: everything in one file to write (.nc)");
+  c->add_option("--csv", o.csv, "light: table of all elements to write (.csv); stand: folder for tables");
+  c->add_option("--tree-csv", o.tree_csv, "light: table of all trees to write (.csv)");
+  c->add_option("--report", o.stand.report, "stand: one page to read in a browser (.html)");
+  c->add_option("--pictures", o.stand.pictures, "stand: folder for ground map, profile, season, scatter");
+  c->add_option("--photographs", o.stand.photographs, "stand: folder for a photograph per sensor (.png)");
+  c->add_option("--photograph-px", o.stand.photograph_px, "stand: edge of the photographs in pixels")
+      ->capture_default_str()
+      ->check(CLI::Range(8, 8192));
+  c->add_option("--json", o.json, "stand: all tables as they came over the wire (.json)");
+  c->add_option("--png", o.png, "render: picture to write (.png)");
+  c->add_option("--exr", o.exr, "render: layers to write (.exr)");
+}
+
+}  // namespace
+
+void add_service(CLI::App& app, ServeOptions& serve, ClientOptions& client) {
+  CLI::App* c = app.add_subcommand("serve", "Answer requests over gRPC");
+  c->add_option("--config", serve.config, "Server settings; default: configs/server.toml");
+  c->add_option("--socket", serve.socket, "Unix socket to listen on, instead of the configured addresses");
+  c->add_option("--configs", serve.configs, "Folder with species/ and grammars/");
+  c->footer("Examples:\n  sunfleck serve\n  sunfleck serve --socket /run/user/1000/sunfleck.sock");
+
+  c = app.add_subcommand("client", "Ask a server for what the other commands do");
+  c->add_option("action", client.action, "info, create, list, delete, light, stand or render")
+      ->required()
+      ->check(CLI::IsMember({"info", "create", "list", "delete", "light", "stand", "render"}));
+  c->add_option("--address", client.address, "unix:PATH or HOST:PORT")->required();
+  c->add_option("--scene-file", client.scene, "Scene file (TOML)");
+  c->add_option("--scene", client.scene_name, "Name the server gave a scene: scenes/...");
+  c->add_option("--method", client.method, "Instead of the scene file's: " + known_methods());
+  add_client_files(c, client);
+  c->add_option("--configs", client.configs, "Folder with species/ and grammars/");
+  c->footer(
+      "Examples:\n  sunfleck client info --address unix:/tmp/sunfleck.sock\n"
+      "  sunfleck client create --address unix:/tmp/sunfleck.sock --scene-file "
+      "configs/scenes/mixed_stand.toml\n"
+      "  sunfleck client light --address unix:/tmp/sunfleck.sock --scene scenes/1f3a... --scene-file "
+      "configs/scenes/mixed_stand.toml --tree-csv trees.csv\n"
+      "  sunfleck client stand --address unix:/tmp/sunfleck.sock --scene scenes/1f3a... --scene-file "
+      "configs/examples/stand.toml --netcdf stand.nc --csv tables --report stand.html");
+}
+
+}  // namespace sunfleck
