@@ -11,7 +11,5 @@ bool is_on_tree(const RayHit& hit);
 std::uint32_t end_of(const trace::Receivers& receivers, const RayHit& hit, const Vec3& direction);
 // The face of its own tree that a hit lies on, as the tree alone numbers them.
 std::uint32_t own_face(const LoneTree& tree, RayHit hit);
-// What a ray from an instance meets that is not that instance itself (copies of it in other periods count).
-RayHit beyond_own_tree(const LinkScene& scene, const LinkRay& ray, std::uint32_t instance);
 
 }  // namespace sunfleck::links

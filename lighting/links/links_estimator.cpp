@@ -136,7 +136,9 @@ LinksPrepared prepare_links(const Forest& forest, const LinksOptions& options, c
                options.memory_limit_bytes);
   {
     const StageTimer timer(spent, "building ray scene");
-    p.rays = std::make_unique<RayScene>(forest, RayScene::Options{.ground = options.ground}, control);
+    const double rays = 3.0 * options.links_per_face * static_cast<double>(p.receivers->two_faced_count());
+    p.rays = std::make_unique<RayScene>(
+        forest, RayScene::Options{.ground = options.ground, .expected_rays = rays}, control);
   }
   {
     const StageTimer timer(spent, "tracing links");

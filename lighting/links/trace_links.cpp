@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <mutex>
 
 #include "lighting/links/link_ends.h"
@@ -103,16 +104,20 @@ class Tracer {
       const std::span<std::uint32_t> ends(out.ends.data() + t.first_exit[at.lobe], count);
       const auto end_of_ray = [&](std::uint32_t k) {
         const LinkRay ray = in_world(at.rays.ray(static_cast<int>(k)), scene_.forest, instance);
-        return end_of(scene_.receivers, beyond_own_tree(scene_, ray, instance), ray.direction);
+        return end_of(scene_.receivers, beyond(instance, ray, kEndless), ray.direction);
+      };
+      const auto sees_sky = [&](std::uint32_t k) {
+        const LinkRay ray = in_world(at.rays.ray(static_cast<int>(k)), scene_.forest, instance);
+        return !scene_.rays.occluded_past(instance, ray.origin_m, ray.direction, ray.from);
       };
       std::size_t skies = 0, more_sky = 0;
       for (std::size_t i = 0; i < count; ++i) skies += is_sky(ends[i] = end_of_ray(leaving[i])) ? 1 : 0;
       for (const std::uint16_t k : lone.more_exits[at.lobe]) {
-        const std::uint32_t end = end_of_ray(k);
-        more_sky += is_sky(end) ? 1 : 0;
+        const bool sky = sees_sky(k);
+        more_sky += sky ? 1 : 0;
         // A kind that only these rays saw takes the place of one link.
-        if (count > 0 && is_sky(end) && skies == 0) ends[0] = end, ++skies, --more_sky;
-        if (count > 1 && !is_sky(end) && own == 0 && skies == count) ends[0] = end, --skies, ++more_sky;
+        if (count > 0 && sky && skies == 0) ends[0] = end_of_ray(k), ++skies, --more_sky;
+        if (count > 1 && !sky && own == 0 && skies == count) ends[0] = end_of_ray(k), --skies, ++more_sky;
       }
       store_ends(scene_.receivers, ends, at.lobe, more_sky, out);
     });
@@ -134,7 +139,7 @@ class Tracer {
         const LinkRay ray = at.rays.ray(k), world = in_world(ray, scene_.forest, instance);
         const double length_m = scale * static_cast<double>(own_m[k]);
         if (!neighbours.may_cut(world.origin_m, world.origin_m + length_m * world.direction)) continue;
-        const RayHit other = beyond_own_tree(scene_, world, instance);
+        const RayHit other = beyond(instance, world, length_m);
         if (!is_on_tree(other) || other.distance_m >= length_m) continue;
         const RayHit own = alone.closest_hit(ray.origin_m, ray.direction, 0.0, ray.from);
         const std::scoped_lock lock(adding);
@@ -168,6 +173,12 @@ class Tracer {
 
  private:
   static constexpr std::uint64_t kGroundSeed = ~std::uint64_t{0};
+  static constexpr double kEndless = std::numeric_limits<double>::infinity();
+
+  // What a ray from an instance meets past that instance within max_m; copies of it in other periods count.
+  RayHit beyond(std::uint32_t instance, const LinkRay& ray, double max_m) const {
+    return scene_.rays.closest_hit_past(instance, ray.origin_m, ray.direction, ray.from, max_m);
+  }
 
   Found found_from(const LoneTree& tree, const LinkRay& ray, std::uint32_t instance) const {
     const RayHit hit = scene_.rays.closest_hit(ray.origin_m, ray.direction, 0.0, ray.from);

@@ -25,27 +25,27 @@ bool count_memory(void* total, ssize_t bytes, bool) {
   return true;
 }
 
-// A ray does not hit the flat leaf or wood triangle it starts on.
+// A ray does not hit the flat leaf or wood triangle it starts on, nor a tree it passes.
 template <HitKind kind>
 void skip_start(const RTCFilterFunctionNArguments* args) {
   const auto& context = *reinterpret_cast<const RayContext*>(args->context);
   const auto& prototype = *static_cast<const PrototypeScene*>(args->geometryUserPtr);
   const unsigned primitive = RTCHitN_primID(args->hit, args->N, 0);
-  const unsigned slot = RTCHitN_geomID(args->hit, args->N, 0);
-  const unsigned copy = RTCHitN_instID(args->hit, args->N, 0, 0);
+  const unsigned slot = RTCHitN_geomID(args->hit, args->N, 0) % kSlots;
+  const unsigned copy = copy_met(prototype, RTCHitN_instID(args->hit, args->N, 0, 0));
   const std::uint32_t local = slot == kQuads   ? prototype.quad_elements[primitive]
                               : slot == kDiscs ? prototype.disc_elements[primitive]
                                                : primitive;
-  if (is_start(context, copy, kind, local)) args->valid[0] = 0;
+  if (is_start(context, copy, kind, local) || is_passed(context, copy)) args->valid[0] = 0;
 }
 
 template <HitKind kind>
-void attach(RTCGeometry geometry, Slot slot, PrototypeScene& out) {
+void attach(RTCGeometry geometry, Slot slot, const Target& to, PrototypeScene& out) {
   rtcSetGeometryUserData(geometry, &out);
   rtcSetGeometryIntersectFilterFunction(geometry, skip_start<kind>);
   rtcSetGeometryOccludedFilterFunction(geometry, skip_start<kind>);
   rtcCommitGeometry(geometry);
-  rtcAttachGeometryByID(out.scene.get(), geometry, slot);
+  rtcAttachGeometryByID(to.scene, geometry, to.first_id + slot);
   rtcReleaseGeometry(geometry);
 }
 
@@ -62,56 +62,57 @@ std::array<Vec3, 4> corners(const FoliageElement& e) {
   return {a, a + u, a + v, a + v};
 }
 
-void add_quads(const Device& device, const Prototype& prototype, PrototypeScene& out) {
+void add_quads(const Target& to, const Prototype& prototype, PrototypeScene& out) {
   if (out.quad_elements.empty()) return;
   const std::size_t count = out.quad_elements.size();
-  const RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_QUAD);
+  const RTCGeometry geometry = rtcNewGeometry(to.device.get(), RTC_GEOMETRY_TYPE_QUAD);
   auto* points = new_buffer<Corner>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, 4 * count);
   auto* indexes =
       new_buffer<std::array<unsigned, 4>>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT4, count);
-  device.check("leaf buffers");
+  to.device.check("leaf buffers");
   for (std::size_t i = 0; i < count; ++i) {
     const auto quad = corners(prototype.foliage[out.quad_elements[i]]);
     for (std::size_t k = 0; k < 4; ++k) {
-      points[4 * i + k] = corner(quad[k]);
+      points[4 * i + k] = corner(to.placement.point(quad[k]));
       indexes[i][k] = static_cast<unsigned>(4 * i + k);
     }
   }
-  attach<HitKind::kFoliage>(geometry, kQuads, out);
+  attach<HitKind::kFoliage>(geometry, kQuads, to, out);
 }
 
-void add_discs(const Device& device, const Prototype& prototype, PrototypeScene& out) {
+void add_discs(const Target& to, const Prototype& prototype, PrototypeScene& out) {
   if (out.disc_elements.empty()) return;
   const std::size_t count = out.disc_elements.size();
-  const RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_ORIENTED_DISC_POINT);
+  const RTCGeometry geometry = rtcNewGeometry(to.device.get(), RTC_GEOMETRY_TYPE_ORIENTED_DISC_POINT);
   auto* points = new_buffer<Corner4>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, count);
   auto* normals = new_buffer<Corner>(geometry, RTC_BUFFER_TYPE_NORMAL, RTC_FORMAT_FLOAT3, count);
-  device.check("leaf buffers");
+  to.device.check("leaf buffers");
   for (std::size_t i = 0; i < count; ++i) {
     const FoliageElement& e = prototype.foliage[out.disc_elements[i]];
-    const float radius = static_cast<float>(glm::length(Vec3(e.half_u_m)));
-    points[i] = {e.centre_m.x, e.centre_m.y, e.centre_m.z, radius};
-    normals[i] = corner(element_normal(e));
+    const double radius = to.placement.scale() * glm::length(Vec3(e.half_u_m));
+    const Corner at = corner(to.placement.point(Vec3(e.centre_m)));
+    points[i] = {at.x, at.y, at.z, static_cast<float>(radius)};
+    normals[i] = corner(to.placement.direction(element_normal(e)));
   }
-  attach<HitKind::kFoliage>(geometry, kDiscs, out);
+  attach<HitKind::kFoliage>(geometry, kDiscs, to, out);
 }
 
-void add_wood_triangles(const Device& device, const Prototype& prototype, PrototypeScene& out) {
+void add_wood_triangles(const Target& to, const Prototype& prototype, PrototypeScene& out) {
   if (prototype.wood_mesh.empty()) return;
   const std::size_t count = prototype.wood_mesh.size();
-  const RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+  const RTCGeometry geometry = rtcNewGeometry(to.device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* points = new_buffer<Corner>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, 3 * count);
   auto* indexes =
       new_buffer<std::array<unsigned, 3>>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, count);
-  device.check("wood buffers");
+  to.device.check("wood buffers");
   for (std::size_t i = 0; i < count; ++i) {
     const WoodTriangle& t = prototype.wood_mesh[i];
     std::size_t k = 3 * i;
-    for (const Vec3f& p : {t.a_m, t.b_m, t.c_m}) points[k++] = {p.x, p.y, p.z};
+    for (const Vec3f& p : {t.a_m, t.b_m, t.c_m}) points[k++] = corner(to.placement.point(Vec3(p)));
     const auto first = static_cast<unsigned>(3 * i);
     indexes[i] = {first, first + 1, first + 2};
   }
-  attach<HitKind::kWoodMesh>(geometry, kWoodTriangles, out);
+  attach<HitKind::kWoodMesh>(geometry, kWoodTriangles, to, out);
 }
 
 void sort_elements_by_shape(const Prototype& prototype, PrototypeScene& out) {
@@ -131,6 +132,10 @@ bool is_start(const RayContext& context, unsigned copy, HitKind kind, std::uint3
   const SceneCopy& c = context.copies[copy];
   return c.instance == context.from.instance && c.shift.x + context.cell.x == 0 &&
          c.shift.y + context.cell.y == 0;
+}
+
+bool is_empty(const Prototype& prototype) {
+  return prototype.foliage.empty() && prototype.wood.empty() && prototype.wood_mesh.empty();
 }
 
 Device::Device() : device_(rtcNewDevice(nullptr)) {
@@ -163,17 +168,21 @@ void commit(const Device& device, RTCScene scene, const RunControl& control) {
   device.check("building the scene");
 }
 
+void add_figures(const Target& to, const Prototype& prototype, PrototypeScene& out) {
+  sort_elements_by_shape(prototype, out);
+  add_quads(to, prototype, out);
+  add_discs(to, prototype, out);
+  add_shoots(to, prototype, out);
+  add_wood_cones(to, prototype, out);
+  add_wood_triangles(to, prototype, out);
+}
+
 void build_prototype_scene(const Device& device, const Prototype& prototype, PrototypeScene& out,
                            const RunControl& control) {
   SUNFLECK_EXPECTS(out.scene == nullptr);
-  if (prototype.foliage.empty() && prototype.wood.empty() && prototype.wood_mesh.empty()) return;
-  sort_elements_by_shape(prototype, out);
+  if (is_empty(prototype)) return;
   out.scene.reset(rtcNewScene(device.get()));
-  add_quads(device, prototype, out);
-  add_discs(device, prototype, out);
-  add_shoots(device, prototype, out);
-  add_wood_cones(device, prototype, out);
-  add_wood_triangles(device, prototype, out);
+  add_figures({device, out.scene.get(), 0, {}}, prototype, out);
   commit(device, out.scene.get(), control);
 }
 

@@ -1,5 +1,6 @@
-// Embree's side of a RayScene: one scene per prototype in tree coordinates, one scene of instances in world
-// coordinates moved by `centre_m` so that single precision loses nothing far from the world's origin.
+// Embree's side of a RayScene: one scene per prototype in tree coordinates and one scene of instances, or one
+// scene of all trees written out; coordinates of the scene are the world's moved by `centre_m` so that single
+// precision loses nothing far from the world's origin.
 // Private to this folder. Embree is seen in .cpp files only: include <embree3/rtcore.h> before this header.
 #pragma once
 
@@ -18,8 +19,21 @@
 
 namespace sunfleck::trace {
 
-// Geometry ids inside a prototype's scene.
-enum Slot : unsigned { kQuads, kDiscs, kShoots, kWoodCones, kWoodTriangles };
+// Geometry ids inside a prototype's scene; where trees are written out, of copy number c: c * kSlots + slot.
+enum Slot : unsigned { kQuads, kDiscs, kShoots, kWoodCones, kWoodTriangles, kSlots };
+
+// From tree coordinates to those of an Embree scene.
+struct Placement {
+  const Instance* instance = nullptr;  // none: they are the same
+  Vec3 moved_by{0};
+  Vec3 point(const Vec3& p) const {
+    return instance != nullptr ? world_from_tree(*instance, p) + moved_by : p;
+  }
+  Vec3 direction(const Vec3& d) const {
+    return instance != nullptr ? world_direction_from_tree(*instance, d) : d;
+  }
+  double scale() const { return instance != nullptr ? static_cast<double>(instance->scale) : 1.0; }
+};
 
 struct ShootVolume {
   Cylinder cylinder;
@@ -31,8 +45,11 @@ struct ReleaseScene {
 };
 using SceneHandle = std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseScene>;
 
+// The figures of a tree: of a prototype, for all its instances, or of one copy written out.
 struct PrototypeScene {
-  SceneHandle scene;  // null where there is nothing to hit
+  static constexpr unsigned kManyCopies = 0xFFFFFFFFu;
+  SceneHandle scene;  // of a prototype; null where there is nothing to hit
+  unsigned copy = kManyCopies;
   std::vector<std::uint32_t> quad_elements, disc_elements, shoot_elements;  // Embree primitive -> element
   std::vector<ShootVolume> shoots;
   std::vector<ConeFrustum> cones;
@@ -44,11 +61,12 @@ struct Cell {
   bool operator==(const Cell&) const = default;
 };
 
-// One placement of a prototype, as Embree's instance of the same number.
+// One placement of a prototype, as Embree's instance of the same number or written out. The turn is what is
+// left to do to the normals of hits.
 struct SceneCopy {
   std::uint32_t instance = 0;
   Cell shift;
-  const PrototypeScene* prototype = nullptr;
+  const PrototypeScene* figures = nullptr;
   double cos_yaw = 1, sin_yaw = 0;
 };
 
@@ -59,10 +77,26 @@ struct RayContext {
   RayStart from;
   Cell cell;  // the cell of the period that the ray is in
   std::uint64_t ray_key = 0;
+  std::uint32_t passed_instance = kNoInstance;  // the ray goes through it as if it were not there
+
+  static constexpr std::uint32_t kNoInstance = 0xFFFFFFFFu;
 };
+
+// The copy that a figure belongs to.
+inline unsigned copy_met(const PrototypeScene& figures, unsigned embree_instance) {
+  return figures.copy == PrototypeScene::kManyCopies ? embree_instance : figures.copy;
+}
 
 // True if the hit lies on the surface the ray starts from, in that very copy.
 bool is_start(const RayContext& context, unsigned copy, HitKind kind, std::uint32_t local);
+
+// True if the copy is the very instance that the ray passes, not one of its other periods.
+inline bool is_passed(const RayContext& context, unsigned copy) {
+  if (context.passed_instance == RayContext::kNoInstance) return false;
+  const SceneCopy& c = context.copies[copy];
+  return c.instance == context.passed_instance && c.shift.x + context.cell.x == 0 &&
+         c.shift.y + context.cell.y == 0;
+}
 
 class Device {
  public:
@@ -79,14 +113,25 @@ class Device {
   std::atomic<std::int64_t> bytes_{0};
 };
 
+bool is_empty(const Prototype& prototype);
+
 // Commits a scene; throws Error(kCancelled) when stopped on the way.
 void commit(const Device& device, RTCScene scene, const RunControl& control);
 
 // Fills `out` and commits its scene; `out` must stay where it is.
 void build_prototype_scene(const Device& device, const Prototype& prototype, PrototypeScene& out,
                            const RunControl& control);
-// Adds the callbacks of shoots and wood (embree_solids.cpp).
-void add_shoots(const Device& device, const Prototype& prototype, PrototypeScene& out);
-void add_wood_cones(const Device& device, const Prototype& prototype, PrototypeScene& out);
+
+// Adds the figures of a tree to a scene, as geometries first_id + slot; `out` takes what the callbacks need.
+struct Target {
+  const Device& device;
+  RTCScene scene;
+  unsigned first_id = 0;
+  Placement placement;
+};
+void add_figures(const Target& to, const Prototype& prototype, PrototypeScene& out);
+// Shoots and wood of them (embree_solids.cpp).
+void add_shoots(const Target& to, const Prototype& prototype, PrototypeScene& out);
+void add_wood_cones(const Target& to, const Prototype& prototype, PrototypeScene& out);
 
 }  // namespace sunfleck::trace

@@ -40,13 +40,14 @@ void write_hit(RTCRayHit& to, double t, const Vec3& normal, unsigned slot, unsig
 double needle_distance(const RayContext& context, const PrototypeScene& prototype, unsigned primitive,
                        const RTCRay& ray) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
+  const unsigned copy = copy_met(prototype, context.embree.instID[0]);
+  if (is_passed(context, copy)) return kNever;
   const ShootVolume& shoot = prototype.shoots[primitive];
   const Vec3 direction = direction_of(ray);  // in tree coordinates: as long as 1 / scale
   const auto span = inside(shoot.cylinder, origin_of(ray), direction);
   if (!span) return kNever;
   const double enter = std::max(span->enter, static_cast<double>(ray.tnear));
-  const std::uint64_t lot =
-      mix_seed(context.ray_key, (std::uint64_t{context.embree.instID[0]} << 32) | primitive);
+  const std::uint64_t lot = mix_seed(context.ray_key, (std::uint64_t{copy} << 32) | primitive);
   const double u = static_cast<double>(lot >> 11) * 0x1p-53;
   const double met = enter - std::log1p(-u) / (shoot.extinction_per_m * glm::length(direction));
   return met < span->leave && met < static_cast<double>(ray.tfar) ? met : kNever;
@@ -55,7 +56,9 @@ double needle_distance(const RayContext& context, const PrototypeScene& prototyp
 std::optional<ConeHit> wood_hit(const RayContext& context, const PrototypeScene& prototype,
                                 unsigned primitive, const RTCRay& ray) {
   const ConeFrustum& cone = prototype.cones[primitive];
-  if (is_start(context, context.embree.instID[0], HitKind::kWood, primitive)) {
+  const unsigned copy = copy_met(prototype, context.embree.instID[0]);
+  if (is_passed(context, copy)) return std::nullopt;
+  if (is_start(context, copy, HitKind::kWood, primitive)) {
     if (context.from.front) return std::nullopt;  // convex: rays leave its outer side for good
     return leave(cone, origin_of(ray), direction_of(ray), ray.tfar);
   }
@@ -128,43 +131,47 @@ struct Callbacks {
   RTCOccludedFunctionN occluded;
 };
 
-void attach_solids(const Device& device, PrototypeScene& out, Slot slot, std::size_t count,
+void attach_solids(const Target& to, PrototypeScene& out, Slot slot, std::size_t count,
                    const Callbacks& callbacks) {
-  const RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER);
+  const RTCGeometry geometry = rtcNewGeometry(to.device.get(), RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(count));
   rtcSetGeometryUserData(geometry, &out);
   rtcSetGeometryBoundsFunction(geometry, callbacks.bounds, nullptr);
   rtcSetGeometryIntersectFunction(geometry, callbacks.intersect);
   rtcSetGeometryOccludedFunction(geometry, callbacks.occluded);
   rtcCommitGeometry(geometry);
-  rtcAttachGeometryByID(out.scene.get(), geometry, slot);
+  rtcAttachGeometryByID(to.scene, geometry, to.first_id + slot);
   rtcReleaseGeometry(geometry);
 }
 
-ShootVolume volume_of(const FoliageElement& e) {
+ShootVolume volume_of(const FoliageElement& e, const Placement& placement) {
   const Vec3 u(e.half_u_m);
-  const double half_length = glm::length(u), radius = glm::length(Vec3(e.half_v_m));
+  const double scale = placement.scale(), half_length = scale * glm::length(u),
+               radius = scale * glm::length(Vec3(e.half_v_m));
   const double volume_m3 = 2.0 * half_length * kPi * radius * radius;
+  const Vec3 axis = half_length > 0.0 ? glm::normalize(u) : Vec3(0, 0, 1);
   ShootVolume shoot;
-  shoot.cylinder = {Vec3(e.centre_m), half_length > 0.0 ? u / half_length : Vec3(0, 0, 1), half_length,
-                    radius};
-  shoot.extinction_per_m = volume_m3 > 0.0 ? 0.5 * e.area_m2 / volume_m3 : 0.0;
+  shoot.cylinder = {placement.point(Vec3(e.centre_m)), placement.direction(axis), half_length, radius};
+  shoot.extinction_per_m = volume_m3 > 0.0 ? 0.5 * scale * scale * e.area_m2 / volume_m3 : 0.0;
   return shoot;
 }
 
 }  // namespace
 
-void add_shoots(const Device& device, const Prototype& prototype, PrototypeScene& out) {
+void add_shoots(const Target& to, const Prototype& prototype, PrototypeScene& out) {
   if (out.shoot_elements.empty()) return;
-  for (const std::uint32_t i : out.shoot_elements) out.shoots.push_back(volume_of(prototype.foliage[i]));
-  attach_solids(device, out, kShoots, out.shoots.size(), {shoot_bounds, shoot_intersect, shoot_occluded});
+  for (const std::uint32_t i : out.shoot_elements)
+    out.shoots.push_back(volume_of(prototype.foliage[i], to.placement));
+  attach_solids(to, out, kShoots, out.shoots.size(), {shoot_bounds, shoot_intersect, shoot_occluded});
 }
 
-void add_wood_cones(const Device& device, const Prototype& prototype, PrototypeScene& out) {
+void add_wood_cones(const Target& to, const Prototype& prototype, PrototypeScene& out) {
   if (prototype.wood.empty()) return;
+  const double scale = to.placement.scale();
   for (const WoodSegment& s : prototype.wood)
-    out.cones.push_back(cone_between(Vec3(s.from_m), Vec3(s.to_m), s.radius_from_m, s.radius_to_m));
-  attach_solids(device, out, kWoodCones, out.cones.size(), {cone_bounds, cone_intersect, cone_occluded});
+    out.cones.push_back(cone_between(to.placement.point(Vec3(s.from_m)), to.placement.point(Vec3(s.to_m)),
+                                     scale * s.radius_from_m, scale * s.radius_to_m));
+  attach_solids(to, out, kWoodCones, out.cones.size(), {cone_bounds, cone_intersect, cone_occluded});
 }
 
 }  // namespace sunfleck::trace

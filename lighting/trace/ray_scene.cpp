@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "lighting/trace/embree_scene.h"
 #include "lighting/trace/ray_walk.h"
@@ -20,8 +21,9 @@ struct RayScene::State {
   Device device;
   Vec3 centre_m{0};
   Surroundings around;
-  std::vector<PrototypeScene> prototypes;
+  std::vector<PrototypeScene> figures;  // of each prototype, or of each copy
   std::vector<SceneCopy> copies;
+  bool flat = false;  // every copy is written out
   SceneHandle top;
   std::size_t wrapped_copies = 0;
   bool has_shoots = false;
@@ -48,6 +50,16 @@ Vec3 centre_of(const Forest& forest) {
   return {middle.x, middle.y, centre.z + lift};
 }
 
+// Writing out pays where a figure is worth more rays than it takes to build. One copy is written out as fast
+// as it is built.
+bool is_flat_better(std::size_t figures, std::size_t copies, double expected_rays) {
+  constexpr std::size_t kMostFigures = 4000000, kMostCopies = 100000;
+  constexpr double kFewestRaysPerFigure = 16.0;
+  if (copies == 1) return true;
+  return figures <= kMostFigures && copies <= kMostCopies &&
+         expected_rays >= kFewestRaysPerFigure * static_cast<double>(figures);
+}
+
 std::uint64_t key_of(const Vec3& origin, const Vec3& direction) {
   std::uint64_t key = 0;
   for (const double x : {origin.x, origin.y, origin.z, direction.x, direction.y, direction.z})
@@ -55,11 +67,13 @@ std::uint64_t key_of(const Vec3& origin, const Vec3& direction) {
   return key;
 }
 
-RayContext context_for(const std::vector<SceneCopy>& copies, const RayStart& from) {
+RayContext context_for(const std::vector<SceneCopy>& copies, const RayStart& from,
+                       std::uint32_t passed_instance) {
   RayContext context;
   rtcInitIntersectContext(&context.embree);
   context.copies = copies.data();
   context.from = from;
+  context.passed_instance = passed_instance;
   return context;
 }
 
@@ -101,27 +115,27 @@ void set_surface(const RTCHit& from, const SceneCopy& copy, const Vec3& directio
 
 RayHit described(const RTCRayHit& from, const SceneCopy& copy, const Piece& piece, const Vec3& direction,
                  std::uint64_t ray_key) {
+  const unsigned slot = from.hit.geomID % kSlots;
   RayHit hit;
   hit.instance = copy.instance;
   hit.local = from.hit.primID;
   hit.distance_m = piece.before_m + from.ray.tfar;
   hit.position_m = piece.origin + static_cast<double>(from.ray.tfar) * direction;
-  switch (from.hit.geomID) {
+  switch (slot) {
     case kQuads:
     case kDiscs: {
-      const auto& elements =
-          from.hit.geomID == kQuads ? copy.prototype->quad_elements : copy.prototype->disc_elements;
+      const auto& elements = slot == kQuads ? copy.figures->quad_elements : copy.figures->disc_elements;
       hit.kind = HitKind::kFoliage;
       hit.local = elements[from.hit.primID];
       break;
     }
     case kShoots:
       hit.kind = HitKind::kFoliage;
-      hit.local = copy.prototype->shoot_elements[from.hit.primID];
+      hit.local = copy.figures->shoot_elements[from.hit.primID];
       set_needle(mix_seed(ray_key, hit.local), direction, hit);
       return hit;
     default:
-      hit.kind = from.hit.geomID == kWoodCones ? HitKind::kWood : HitKind::kWoodMesh;
+      hit.kind = slot == kWoodCones ? HitKind::kWood : HitKind::kWoodMesh;
   }
   set_surface(from.hit, copy, direction, hit);
   return hit;
@@ -152,29 +166,67 @@ RayHit ended(const RayEnd& end, const Surroundings& around, const Vec3& ground_n
 RayScene::State::State(const Forest& forest, const Options& options, const RunControl& control) {
   centre_m = centre_of(forest);
   around = surroundings_of(forest, options, centre_m);
-  prototypes.resize(forest.prototypes.size());
-  for (std::size_t i = 0; i < prototypes.size(); ++i) {
-    build_prototype_scene(device, forest.prototypes[i], prototypes[i], control);
-    has_shoots = has_shoots || !prototypes[i].shoots.empty();
-  }
-  copies = copies_of(forest, prototypes, around, centre_m);
+  copies = copies_of(forest, around, centre_m);
   for (const SceneCopy& copy : copies) wrapped_copies += copy.shift == Cell{} ? 0 : 1;
-  top = build_top_scene(device, forest, copies, around, centre_m, control);
+  flat = is_flat_better(figures_of(forest, copies), copies.size(), options.expected_rays);
+  if (flat) {
+    top = build_flat_scene(device, forest, copies, figures, around, centre_m, control);
+  } else {
+    figures.resize(forest.prototypes.size());
+    for (std::size_t i = 0; i < figures.size(); ++i)
+      build_prototype_scene(device, forest.prototypes[i], figures[i], control);
+    top = build_top_scene(device, forest, copies, figures, around, centre_m, control);
+  }
+  for (const PrototypeScene& f : figures) has_shoots = has_shoots || !f.shoots.empty();
 }
 
 RayScene::RayScene(const Forest& forest, const Options& options, const RunControl& control)
     : state_(std::make_unique<State>(forest, options, control)) {}
 RayScene::~RayScene() = default;
 
+struct RayScene::Way {
+  Vec3 origin_m, direction;
+  double min_m = 0, max_m = std::numeric_limits<double>::infinity();
+  RayStart from;
+  std::uint32_t passed_instance = RayContext::kNoInstance;
+};
+
 RayHit RayScene::closest_hit(const Vec3& origin_m, const Vec3& direction, double min_distance_m,
                              const RayStart& from) const {
+  return closest_on({.origin_m = origin_m, .direction = direction, .min_m = min_distance_m, .from = from});
+}
+
+RayHit RayScene::closest_hit_past(std::uint32_t instance, const Vec3& origin_m, const Vec3& direction,
+                                  const RayStart& from, double max_m) const {
+  return closest_on({.origin_m = origin_m,
+                     .direction = direction,
+                     .max_m = max_m,
+                     .from = from,
+                     .passed_instance = instance});
+}
+
+bool RayScene::occluded(const Vec3& origin_m, const Vec3& direction, double min_distance_m,
+                        const RayStart& from) const {
+  return occluded_on({.origin_m = origin_m, .direction = direction, .min_m = min_distance_m, .from = from});
+}
+
+bool RayScene::occluded_past(std::uint32_t instance, const Vec3& origin_m, const Vec3& direction,
+                             const RayStart& from) const {
+  return occluded_on(
+      {.origin_m = origin_m, .direction = direction, .from = from, .passed_instance = instance});
+}
+
+RayHit RayScene::closest_on(const Way& way) const {
+  const Vec3& direction = way.direction;
   SUNFLECK_EXPECTS(std::abs(glm::dot(direction, direction) - 1.0) < 1e-6);
   const State& s = *state_;
-  const Vec3 origin = s.start_of(origin_m, from);
-  RayContext context = context_for(s.copies, from);
+  const Vec3 origin = s.start_of(way.origin_m, way.from);
+  RayContext context = context_for(s.copies, way.from, way.passed_instance);
   RTCRayHit found;
   RayHit hit;
-  const RayEnd end = walk(s.around, origin, direction, min_distance_m, [&](const Piece& piece) {
+  const RayEnd end = walk(s.around, origin, direction, way.min_m, [&](Piece piece) {
+    piece.far_m = std::min(piece.far_m, way.max_m - piece.before_m);
+    if (piece.far_m <= piece.near_m) return false;
     context.cell = piece.cell;
     if (s.has_shoots) context.ray_key = key_of(piece.origin, direction);
     found.ray = embree_ray(piece, direction);
@@ -182,7 +234,7 @@ RayHit RayScene::closest_hit(const Vec3& origin_m, const Vec3& direction, double
     found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(s.top.get(), &context.embree, &found);
     if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-    const SceneCopy& copy = s.copies[found.hit.instID[0]];
+    const SceneCopy& copy = s.copies[s.flat ? found.hit.geomID / kSlots : found.hit.instID[0]];
     hit = described(found, copy, piece, direction, context.ray_key);
     hit.on_original_m = into_base_cell(s.around, hit.position_m, copy.shift);
     return true;
@@ -197,13 +249,13 @@ RayHit RayScene::closest_hit(const Vec3& origin_m, const Vec3& direction, double
   return hit;
 }
 
-bool RayScene::occluded(const Vec3& origin_m, const Vec3& direction, double min_distance_m,
-                        const RayStart& from) const {
+bool RayScene::occluded_on(const Way& way) const {
+  const Vec3& direction = way.direction;
   SUNFLECK_EXPECTS(std::abs(glm::dot(direction, direction) - 1.0) < 1e-6);
   const State& s = *state_;
-  const Vec3 origin = s.start_of(origin_m, from);
-  RayContext context = context_for(s.copies, from);
-  const RayEnd end = walk(s.around, origin, direction, min_distance_m, [&](const Piece& piece) {
+  const Vec3 origin = s.start_of(way.origin_m, way.from);
+  RayContext context = context_for(s.copies, way.from, way.passed_instance);
+  const RayEnd end = walk(s.around, origin, direction, way.min_m, [&](const Piece& piece) {
     context.cell = piece.cell;
     if (s.has_shoots) context.ray_key = key_of(piece.origin, direction);
     RTCRay ray = embree_ray(piece, direction);

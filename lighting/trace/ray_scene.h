@@ -46,6 +46,10 @@ class RayScene {
   struct Options {
     bool ground = true;  // false: nothing below, rays down go to "sky"
     int max_wraps = 1000;
+    // How many rays will be cast, about. Where they are many against the trees' figures, all trees are
+    // written out into one structure, which takes longer to build, about 250 bytes per figure, and a half to
+    // a tenth of the time per ray where crowns interlock.
+    double expected_rays = 0;
   };
   // Throws Error(kCancelled) when stopped while building.
   RayScene(const Forest& forest, const Options& options, const RunControl& control = {});
@@ -59,11 +63,21 @@ class RayScene {
   bool occluded(const Vec3& origin_m, const Vec3& direction, double min_distance_m = 0.0,
                 const RayStart& from = {}) const;
 
+  // The same past one instance, as if it were not there (copies of it in other periods are), and no farther
+  // than max_m: beyond that what is met may be left out, what lies at the end of the way (sky, ground) not.
+  RayHit closest_hit_past(std::uint32_t instance, const Vec3& origin_m, const Vec3& direction,
+                          const RayStart& from, double max_m) const;
+  bool occluded_past(std::uint32_t instance, const Vec3& origin_m, const Vec3& direction,
+                     const RayStart& from) const;
+
   std::size_t copies() const;        // wrapped copies added for the period
   std::size_t memory_bytes() const;  // of Embree's structures
 
  private:
   struct State;
+  struct Way;
+  RayHit closest_on(const Way& way) const;
+  bool occluded_on(const Way& way) const;
   std::unique_ptr<State> state_;
 };
 

@@ -29,10 +29,9 @@ std::vector<Box> prototype_boxes(const Forest& forest) {
   return boxes;
 }
 
-SceneCopy copy_of(const Instance& instance, std::size_t number, const Cell& shift,
-                  const PrototypeScene& prototype) {
-  return {static_cast<std::uint32_t>(number), shift, &prototype,
-          std::cos(static_cast<double>(instance.yaw_rad)), std::sin(static_cast<double>(instance.yaw_rad))};
+Vec3 place_of(const Instance& instance, const SceneCopy& copy, const Surroundings& around,
+              const Vec3& centre_m) {
+  return into_base_cell(around, instance.position_m - centre_m, {-copy.shift.x, -copy.shift.y});
 }
 
 // All shifts by whole cells that bring the interval [lo, hi] into touch with the base cell.
@@ -46,8 +45,7 @@ Shifts shifts_into(double cell_lo, double cell_size, double lo, double hi, doubl
 
 void set_transform(RTCGeometry geometry, const Instance& instance, const SceneCopy& copy,
                    const Surroundings& around, const Vec3& centre_m) {
-  const Cell back{-copy.shift.x, -copy.shift.y};
-  const Vec3 at = into_base_cell(around, instance.position_m - centre_m, back);
+  const Vec3 at = place_of(instance, copy, around, centre_m);
   const double s = instance.scale;
   const std::array<double, 12> columns = {s * copy.cos_yaw,
                                           s * copy.sin_yaw,
@@ -87,8 +85,7 @@ Occupied occupied(const Forest& forest, const Surroundings& around, const Vec3& 
 }
 
 void add_wrapped_copies(std::size_t number, const Instance& instance, const Box& local,
-                        const PrototypeScene& prototype, const Surroundings& around, const Vec3& centre_m,
-                        std::vector<SceneCopy>& copies) {
+                        const Surroundings& around, const Vec3& centre_m, std::vector<SceneCopy>& copies) {
   const auto corners = placed_corners(instance, local, centre_m);
   const Box box = box_around(corners);
   const double touch = 2.0 * around.rounding_m;
@@ -96,7 +93,7 @@ void add_wrapped_copies(std::size_t number, const Instance& instance, const Box&
   const Shifts ys = shifts_into(around.cell_lo.y, around.cell_size.y, box.lo.y, box.hi.y, touch);
   for (std::int32_t x = xs.first; x <= xs.last; ++x)
     for (std::int32_t y = ys.first; y <= ys.last; ++y)
-      copies.push_back(copy_of(instance, number, {x, y}, prototype));
+      copies.push_back({static_cast<std::uint32_t>(number), {x, y}});
 }
 
 }  // namespace
@@ -121,30 +118,60 @@ Surroundings surroundings_of(const Forest& forest, const RayScene::Options& opti
   return s;
 }
 
-std::vector<SceneCopy> copies_of(const Forest& forest, const std::vector<PrototypeScene>& prototypes,
-                                 const Surroundings& around, const Vec3& centre_m) {
+std::vector<SceneCopy> copies_of(const Forest& forest, const Surroundings& around, const Vec3& centre_m) {
   const std::vector<Box> boxes = prototype_boxes(forest);
   std::vector<SceneCopy> copies;
   for (std::size_t i = 0; i < forest.instances.size(); ++i) {
     const Instance& instance = forest.instances[i];
-    const PrototypeScene& prototype = prototypes[instance.prototype.value];
     const Box& local = boxes[instance.prototype.value];
-    if (prototype.scene == nullptr || local.empty()) continue;
+    if (is_empty(forest.prototypes[instance.prototype.value]) || local.empty()) continue;
     if (around.periodic)
-      add_wrapped_copies(i, instance, local, prototype, around, centre_m, copies);
+      add_wrapped_copies(i, instance, local, around, centre_m, copies);
     else
-      copies.push_back(copy_of(instance, i, {}, prototype));
+      copies.push_back({static_cast<std::uint32_t>(i), {}});
   }
   return copies;
 }
 
-SceneHandle build_top_scene(const Device& device, const Forest& forest, const std::vector<SceneCopy>& copies,
-                            const Surroundings& around, const Vec3& centre_m, const RunControl& control) {
+std::size_t figures_of(const Forest& forest, const std::vector<SceneCopy>& copies) {
+  std::size_t figures = 0;
+  for (const SceneCopy& copy : copies) {
+    const Prototype& p = forest.prototypes[forest.instances[copy.instance].prototype.value];
+    figures += p.foliage.size() + p.wood.size() + p.wood_mesh.size();
+  }
+  return figures;
+}
+
+SceneHandle build_flat_scene(const Device& device, const Forest& forest, std::vector<SceneCopy>& copies,
+                             std::vector<PrototypeScene>& placed, const Surroundings& around,
+                             const Vec3& centre_m, const RunControl& control) {
+  SceneHandle scene(rtcNewScene(device.get()));
+  placed.resize(copies.size());
+  for (unsigned i = 0; i < copies.size(); ++i) {
+    control.check();
+    const Instance& instance = forest.instances[copies[i].instance];
+    const Vec3 moved_by = place_of(instance, copies[i], around, centre_m) - instance.position_m;
+    placed[i].copy = i;
+    copies[i].figures = &placed[i];
+    add_figures({device, scene.get(), i * kSlots, {&instance, moved_by}},
+                forest.prototypes[instance.prototype.value], placed[i]);
+  }
+  commit(device, scene.get(), control);
+  return scene;
+}
+
+SceneHandle build_top_scene(const Device& device, const Forest& forest, std::vector<SceneCopy>& copies,
+                            const std::vector<PrototypeScene>& prototypes, const Surroundings& around,
+                            const Vec3& centre_m, const RunControl& control) {
   SceneHandle scene(rtcNewScene(device.get()));
   for (std::size_t i = 0; i < copies.size() && !control.stop.stop_requested(); ++i) {
+    const Instance& instance = forest.instances[copies[i].instance];
+    copies[i].figures = &prototypes[instance.prototype.value];
+    copies[i].cos_yaw = std::cos(static_cast<double>(instance.yaw_rad));
+    copies[i].sin_yaw = std::sin(static_cast<double>(instance.yaw_rad));
     const RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_INSTANCE);
-    rtcSetGeometryInstancedScene(geometry, copies[i].prototype->scene.get());
-    set_transform(geometry, forest.instances[copies[i].instance], copies[i], around, centre_m);
+    rtcSetGeometryInstancedScene(geometry, copies[i].figures->scene.get());
+    set_transform(geometry, instance, copies[i], around, centre_m);
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(scene.get(), geometry, static_cast<unsigned>(i));
     rtcReleaseGeometry(geometry);

@@ -74,6 +74,81 @@ TEST(RayScene, InstancesAreWhatTheyStandFor) {
   EXPECT_LE(unlike, 5);
 }
 
+// Trees of all kinds of figures, turned and scaled, their crowns in each other.
+Forest interlocked() {
+  Forest forest = forest_of(random_leaves(Crown::kSphere, {0, 0, 2}, {1, 1, 1.5}, 300, 0.15, 3));
+  Prototype& tree = forest.prototypes[0];
+  tree.wood.push_back({{0, 0, 0}, {0.1f, 0, 2}, 0.1f, 0.05f, 0});
+  tree.wood_mesh.push_back({{-0.5f, -0.5f, 1}, {0.5f, -0.5f, 1}, {0, 0.5f, 1.2f}, 0});
+  for (int i = 0; i < 20; ++i) {
+    tree.foliage.push_back(disc({0.1 * i - 1, 0.3, 1 + 0.1 * i}, glm::normalize(Vec3(1, i, 3)), 0.1));
+    tree.foliage.push_back(shoot({0.1 * i - 1, -0.3, 1 + 0.1 * i}, {0.2, 0.1, 0}, 0.08, 0.1));
+  }
+  forest.instances = {{{0, 0, 0}, {}, 0.3f, 1.0f, {}},
+                      {{1.2, 0.5, 0.2}, {}, -2.0f, 0.6f, {}},
+                      {{-1, 1, 0}, {}, 4.0f, 1.5f, {}}};
+  return forest;
+}
+
+bool like(const RayHit& a, const RayHit& b) {
+  if (a.kind != b.kind) return false;
+  if (a.kind == HitKind::kSky) return true;
+  return a.front == b.front && a.instance == b.instance && a.local == b.local &&
+         std::abs(a.distance_m - b.distance_m) < 1e-4 && glm::length(a.normal - b.normal) < 1e-3;
+}
+
+// Many rays: all trees written out into one structure. Lots of needles are drawn from the ray alone, so that
+// they fall alike but for rounding.
+TEST(RayScene, TreesWrittenOutAreTheSame) {
+  for (const bool periodic : {false, true}) {
+    Forest forest = interlocked();
+    if (periodic) forest.period = Period{{-1, -1}, {3, 3}};
+    const RayScene placed(forest, {}), flat(forest, {.expected_rays = 1e9});
+    EXPECT_EQ(placed.copies(), flat.copies());
+    RandomStream random(7, 0, RandomPurpose::kTestScene);
+    int unlike = 0;
+    for (int i = 0; i < 20000; ++i) {
+      const Vec3 origin(random.uniform(-1, 2), random.uniform(-1, 2), random.uniform(0, 4)),
+          d = any_direction(random);
+      const RayStart from{HitKind::kFoliage, true, random.below(3), random.below(300)};
+      unlike += like(placed.closest_hit(origin, d, 0, from), flat.closest_hit(origin, d, 0, from)) ? 0 : 1;
+      unlike += placed.occluded(origin, d, 0, from) == flat.occluded(origin, d, 0, from) ? 0 : 1;
+    }
+    EXPECT_LE(unlike, 40);  // rays along an edge, and lots on the edge of a needle
+  }
+}
+
+// Past an instance a ray meets what it would meet were that instance not there, in this period.
+TEST(RayScene, RaysPastAnInstance) {
+  Forest forest = interlocked();  // without shoots: their lots go by the number of the copy
+  std::erase_if(forest.prototypes[0].foliage,
+                [](const FoliageElement& e) { return e.shape == ElementShape::kShoot; });
+  Forest others = forest;
+  others.instances.erase(others.instances.begin() + 1);
+  const RayScene without(others, {});
+  for (const double expected_rays : {0.0, 1e9}) {
+    const RayScene scene(forest, {.expected_rays = expected_rays});
+    RandomStream random(8, 0, RandomPurpose::kTestScene);
+    int unlike = 0;
+    for (int i = 0; i < 20000; ++i) {
+      const Vec3 origin(random.uniform(-1, 2), random.uniform(-1, 2), random.uniform(0, 4)),
+          d = any_direction(random);
+      const RayHit a = scene.closest_hit_past(1, origin, d, {}, 100.0), b = without.closest_hit(origin, d);
+      unlike += a.kind == b.kind && (a.kind == HitKind::kSky || std::abs(a.distance_m - b.distance_m) < 1e-4)
+                    ? 0
+                    : 1;
+      EXPECT_EQ(scene.occluded_past(1, origin, d, {}), a.kind != HitKind::kSky);
+      const RayHit near = scene.closest_hit_past(1, origin, d, {}, 0.5);
+      if (b.distance_m < 0.5) {
+        EXPECT_EQ(near.kind, a.kind);
+      } else {
+        EXPECT_TRUE(near.kind == HitKind::kSky || near.kind == HitKind::kGround);
+      }
+    }
+    EXPECT_LE(unlike, 5);  // only rays along an edge may differ
+  }
+}
+
 TEST(RayScene, LeafOverThePeriodsBorderComesBackIn) {
   Forest forest = forest_of({quad({0.95, 0, 1}, {0.2, 0, 0}, {0, 0.2, 0})});
   forest.period = Period{{-1, -1}, {2, 2}};
