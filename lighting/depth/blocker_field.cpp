@@ -119,6 +119,18 @@ class BlockerFieldBuilder {
     }
   }
 
+  // Counting sort.
+  void sort_elements() {
+    std::vector<std::uint32_t> next(field_.layout_.cell_count() + 1, 0);
+    for (const FieldElement& e : field_.elements_) ++next[e.cell + 1];
+    for (std::size_t c = 1; c < next.size(); ++c) next[c] += next[c - 1];
+    field_.elements_by_cell_.resize(field_.elements_.size());
+    for (std::size_t i = 0; i < field_.elements_.size(); ++i) {
+      if (i % 65536 == 0) control_.check();
+      field_.elements_by_cell_[next[field_.elements_[i].cell]++] = static_cast<std::uint32_t>(i);
+    }
+  }
+
   void place_wood() {
     const double cell_m = field_.layout_.mean_cell_m();
     for (const Instance& instance : forest_.instances) {
@@ -228,6 +240,7 @@ BlockerField::BlockerField(const Forest& forest, const BlockerFieldOptions& opti
   SUNFLECK_EXPECTS(!elements_.empty());
   builder.choose_grid(options);
   builder.place_elements();
+  builder.sort_elements();
   builder.place_wood();
 }
 

@@ -76,6 +76,8 @@ class BlockerField {
   BlockerField(const Forest& forest, const BlockerFieldOptions& options, const RunControl& control);
 
   const std::vector<FieldElement>& elements() const { return elements_; }  // in ForestIndex order
+  // Indexes of elements: neighbours come together, each cell's in rising order.
+  const std::vector<std::uint32_t>& elements_by_cell() const { return elements_by_cell_; }
   const std::vector<FieldWood>& wood() const { return wood_; }
   const std::vector<BlockerPiece>& element_pieces() const { return element_pieces_; }  // by rising blocker
   const std::vector<BlockerPiece>& wood_pieces() const { return wood_pieces_; }
@@ -91,6 +93,7 @@ class BlockerField {
  private:
   friend class BlockerFieldBuilder;
   std::vector<FieldElement> elements_;
+  std::vector<std::uint32_t> elements_by_cell_;
   std::vector<FieldWood> wood_;
   std::vector<BlockerPiece> element_pieces_, wood_pieces_;
   GridLayout layout_;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lighting/depth/grid_march.h"
+#include "lighting/depth/march_lanes.h"
 #include "sim/base/contract.h"
 #include "sim/base/parallel.h"
 
@@ -88,14 +89,41 @@ double ExtinctionGrid::depth_from_point(const Vec3& point_m, March march) const 
   return march_grid(field_.layout(), extinction_per_m_, field_.field_from_world(point_m), direction);
 }
 
+void ExtinctionGrid::depths_from_elements(std::span<const std::uint32_t> elements, March march,
+                                          float* depths) const {
+  if (!lanes_can_march(field_.layout())) {
+    for (std::size_t i = 0; i < elements.size(); ++i)
+      depths[i] = static_cast<float>(depth_from_element(elements[i], march));
+    return;
+  }
+  const MarchGroup march_group = march_group_best();
+  const MarchLine line = march_line(field_.layout(), extinction_per_m_,
+                                    march == March::kForward ? field_direction_ : -field_direction_);
+  std::array<MarchStart, kMarchLanes> starts;
+  std::array<float, kMarchLanes> found;
+  for (std::size_t first = 0; first < elements.size(); first += kMarchLanes) {
+    const auto group = elements.subspan(first, std::min(kMarchLanes, elements.size() - first));
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      const FieldElement& e = field_.elements()[group[i]];
+      starts[i] = {e.centre_m, e.cell, own_extinction_per_m_[group[i]]};
+    }
+    march_group(line, std::span(starts).first(group.size()), found.data());
+    for (std::size_t i = 0; i < group.size(); ++i)
+      depths[first + i] =
+          field_.elements()[group[i]].below_ground ? static_cast<float>(kLargestDepth) : found[i];
+  }
+}
+
 std::vector<float> ExtinctionGrid::depth_of_elements(March march, const RunControl& control) const {
-  std::vector<float> depths(field_.elements().size());
+  const std::vector<std::uint32_t>& order = field_.elements_by_cell();
+  std::vector<float> depths(order.size());
   // A level ray in a periodic scene takes kMostWraps rounds: small chunks keep the stop token in sight.
-  const std::size_t chunk = field_.layout().wraps_xy ? 16 : 512;
-  for_each_chunk(depths.size(), chunk, control, "marching the leaf-area grid",
+  const std::size_t chunk = field_.layout().wraps_xy ? kMarchLanes : 512;
+  for_each_chunk(order.size(), chunk, control, "marching the leaf-area grid",
                  [&](std::size_t begin, std::size_t end) {
-                   for (std::size_t i = begin; i < end; ++i)
-                     depths[i] = static_cast<float>(depth_from_element(i, march));
+                   std::vector<float> found(end - begin);
+                   depths_from_elements(std::span(order).subspan(begin, end - begin), march, found.data());
+                   for (std::size_t i = begin; i < end; ++i) depths[order[i]] = found[i - begin];
                  });
   return depths;
 }

@@ -75,20 +75,6 @@ void close_budget(DirectSun& sun, const TransportScene& scene) {
 
 }  // namespace
 
-std::vector<float> sun_depths(const CellContents& contents, const BlockerField& field,
-                              const ExtinctionGrid& grid, const RunControl& control) {
-  std::vector<float> depths(field.elements().size(), static_cast<float>(kLargestDepth));
-  const std::size_t chunk = field.layout().wraps_xy ? kPointsPerChunk : 512;
-  for_each_chunk(contents.parts.size(), chunk, control, {}, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p) {
-      const std::uint32_t e = contents.parts[p].element;
-      if (contents.parts_of_element[contents.first_part_of_element[e]] == p)
-        depths[e] = static_cast<float>(grid.depth_from_element(e, March::kForward));
-    }
-  });
-  return depths;
-}
-
 void light_elements(DirectSun& sun, const BlockerField& field, std::span<const float> depths,
                     const Vec3& to_sun, const RunControl& control) {
   light_seen(sun, field, to_sun, control, [&](std::size_t i, const FieldElement& e) {
@@ -116,7 +102,7 @@ DirectSun direct_sun(const TransportScene& scene, const Forest& forest, const Ve
   sun.open_ground = glm::dot(to_sun, forest.terrain.normal());
   const ExtinctionGrid grid(field, to_sun, control);
   if (sunlit_fraction.empty())
-    light_elements(sun, field, sun_depths(scene.contents, field, grid, control), to_sun, control);
+    light_elements(sun, field, grid.depth_of_elements(March::kForward, control), to_sun, control);
   else
     light_elements_as_known(sun, field, sunlit_fraction, to_sun, control);
   light_ground(sun, *scene.ground, grid, control);

@@ -19,11 +19,6 @@ struct DirectSun {
   double open_ground = 0;              // irradiance of the open ground
 };
 
-// Depth of the grid from every element towards its sun. Leaf by leaf of one cell after the other: their ways
-// through the grid are nearly the same and stay in the cache.
-std::vector<float> sun_depths(const CellContents& contents, const BlockerField& field,
-                              const ExtinctionGrid& grid, const RunControl& control);
-
 // Light of every element for its depth towards the sun; fills `elements` and `sunlit_fraction`.
 void light_elements(DirectSun& sun, const BlockerField& field, std::span<const float> depths,
                     const Vec3& to_sun, const RunControl& control);

@@ -135,7 +135,7 @@ DirectSun tree_sun(const TreeSpace& space, const Vec3& to_sun, const RunControl&
   DirectSun sun;
   const Vec3 towards = space.scene.frame.field_direction(to_sun);
   const ExtinctionGrid own(*space.fine.field, to_sun, control);
-  std::vector<float> depths = sun_depths(space.fine.contents, *space.fine.field, own, control);
+  std::vector<float> depths = own.depth_of_elements(March::kForward, control);
   const auto& elements = space.fine.field->elements();
   const std::vector<float> others = others_sun_depth(space, towards, control);
   for_each_chunk(depths.size(), 4096, control, {}, [&](std::size_t begin, std::size_t end) {
