@@ -29,6 +29,7 @@ const std::map<std::string, int>& ranks() {
                                                    {"lighting/depth", 12},
                                                    {"lighting/slab", 13},
                                                    {"lighting/envelope", 13},
+                                                   {"lighting/shade", 13},
                                                    {"lighting/transport", 13},
                                                    {"lighting/trace", 13},
                                                    {"lighting/links", 14},
