@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/base/contract.h"
 #include "sim/base/parallel.h"
 
 namespace sunfleck::transport {
@@ -36,6 +37,42 @@ void light_wood(DirectSun& sun, const TransportScene& scene, const ExtinctionGri
   });
 }
 
+// `seen(index, element)`: share of the element that the sun reaches.
+template <class Seen>
+void light_seen(DirectSun& sun, const BlockerField& field, const Vec3& to_sun, const RunControl& control,
+                const Seen& seen) {
+  sun.elements.assign(field.elements().size(), {});
+  sun.sunlit_fraction.assign(field.elements().size(), 0.0f);
+  for_each_chunk(field.elements().size(), 4096, control, {}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const FieldElement& e = field.elements()[i];
+      if (e.below_ground) continue;
+      const double lit = seen(i, e);
+      const double cosine = e.is_shoot() ? 0.0 : glm::dot(Vec3(e.axis), to_sun);
+      const double even = e.is_shoot() ? 0.25 : 0.0;  // mean over needles that face everywhere
+      sun.sunlit_fraction[i] = static_cast<float>(lit);
+      sun.elements[i] = {static_cast<float>(lit * (even + std::max(0.0, cosine))),
+                         static_cast<float>(lit * (even + std::max(0.0, -cosine)))};
+    }
+  });
+}
+
+// What the elements of a period leave of its sun goes to ground and wood.
+void close_budget(DirectSun& sun, const TransportScene& scene) {
+  const double cell_m2 = scene.ground->cell_area_m2();
+  double left_w = sun.open_ground * cell_m2 * static_cast<double>(sun.ground.size());
+  for (std::size_t i = 0; i < sun.elements.size(); ++i)
+    left_w -= static_cast<double>(scene.field->elements()[i].area_m2) *
+              (static_cast<double>(sun.elements[i].front) + sun.elements[i].back);
+  double taken_w = 0.0;
+  for (const float e : sun.ground) taken_w += cell_m2 * e;
+  for (const float w : sun.wood) taken_w += std::pow(scene.layout.mean_cell_m(), 2) * w;
+  if (!(taken_w > 0.0)) return;
+  const auto factor = static_cast<float>(std::max(0.0, left_w) / taken_w);
+  for (float& e : sun.ground) e *= factor;
+  for (float& w : sun.wood) w *= factor;
+}
+
 }  // namespace
 
 std::vector<float> sun_depths(const CellContents& contents, const BlockerField& field,
@@ -54,24 +91,21 @@ std::vector<float> sun_depths(const CellContents& contents, const BlockerField& 
 
 void light_elements(DirectSun& sun, const BlockerField& field, std::span<const float> depths,
                     const Vec3& to_sun, const RunControl& control) {
-  sun.elements.assign(field.elements().size(), {});
-  sun.sunlit_fraction.assign(field.elements().size(), 0.0f);
-  for_each_chunk(depths.size(), 4096, control, {}, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const FieldElement& e = field.elements()[i];
-      if (e.below_ground) continue;
-      const double seen = std::exp(-static_cast<double>(depths[i])) * own_transmittance(e, to_sun);
-      const double cosine = e.is_shoot() ? 0.0 : glm::dot(Vec3(e.axis), to_sun);
-      const double even = e.is_shoot() ? 0.25 : 0.0;  // mean over needles that face everywhere
-      sun.sunlit_fraction[i] = static_cast<float>(seen);
-      sun.elements[i] = {static_cast<float>(seen * (even + std::max(0.0, cosine))),
-                         static_cast<float>(seen * (even + std::max(0.0, -cosine)))};
-    }
+  light_seen(sun, field, to_sun, control, [&](std::size_t i, const FieldElement& e) {
+    return std::exp(-static_cast<double>(depths[i])) * own_transmittance(e, to_sun);
   });
 }
 
+void light_elements_as_known(DirectSun& sun, const BlockerField& field,
+                             std::span<const float> sunlit_fraction, const Vec3& to_sun,
+                             const RunControl& control) {
+  SUNFLECK_EXPECTS(sunlit_fraction.size() == field.elements().size());
+  light_seen(sun, field, to_sun, control,
+             [&](std::size_t i, const FieldElement&) { return static_cast<double>(sunlit_fraction[i]); });
+}
+
 DirectSun direct_sun(const TransportScene& scene, const Forest& forest, const Vec3& to_sun,
-                     const RunControl& control) {
+                     std::span<const float> sunlit_fraction, const RunControl& control) {
   const BlockerField& field = *scene.field;
   DirectSun sun;
   sun.elements.resize(field.elements().size());
@@ -81,9 +115,13 @@ DirectSun direct_sun(const TransportScene& scene, const Forest& forest, const Ve
   if (field.ends_on_ground(to_sun)) return sun;
   sun.open_ground = glm::dot(to_sun, forest.terrain.normal());
   const ExtinctionGrid grid(field, to_sun, control);
-  light_elements(sun, field, sun_depths(scene.contents, field, grid, control), to_sun, control);
+  if (sunlit_fraction.empty())
+    light_elements(sun, field, sun_depths(scene.contents, field, grid, control), to_sun, control);
+  else
+    light_elements_as_known(sun, field, sunlit_fraction, to_sun, control);
   light_ground(sun, *scene.ground, grid, control);
   light_wood(sun, scene, grid, to_sun, control);
+  if (scene.periodic && !sunlit_fraction.empty()) close_budget(sun, scene);
   return sun;
 }
 

@@ -1,4 +1,7 @@
-// Direct sunlight: one march of the leaf-area grid per element, ground cell and cell with wood.
+// Direct sunlight: one march of the leaf-area grid per element, ground cell and cell with wood; or, where
+// someone else knows which elements are in the sun (a picture of the sun, shadow rays), marches for ground
+// and wood alone. In a periodic scene what such elements leave of the sun is shared by ground and wood in the
+// proportions of their marches, so that all that comes in is taken by something.
 #pragma once
 
 #include "lighting/depth/extinction_grid.h"
@@ -25,8 +28,14 @@ std::vector<float> sun_depths(const CellContents& contents, const BlockerField& 
 void light_elements(DirectSun& sun, const BlockerField& field, std::span<const float> depths,
                     const Vec3& to_sun, const RunControl& control);
 
-// `to_sun` is unit and above the horizon.
+// The same for known shares of every element that the sun reaches, [0, 1]; of shoots of their needles, past
+// their own shade.
+void light_elements_as_known(DirectSun& sun, const BlockerField& field,
+                             std::span<const float> sunlit_fraction, const Vec3& to_sun,
+                             const RunControl& control);
+
+// `to_sun` is unit and above the horizon. `sunlit_fraction`: as above, empty where not known.
 DirectSun direct_sun(const TransportScene& scene, const Forest& forest, const Vec3& to_sun,
-                     const RunControl& control);
+                     std::span<const float> sunlit_fraction, const RunControl& control);
 
 }  // namespace sunfleck::transport

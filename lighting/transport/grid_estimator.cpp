@@ -42,6 +42,7 @@ class GridEstimate {
         prepared_(prepared),
         scene_(*prepared.scene),
         sun_(sources.sun ? &sources.sun->light : nullptr),
+        sun_is_given_(sources.sun && sources.sun->given),
         sky_(*sources.sky),
         control_(control) {
     SUNFLECK_EXPECTS(scene_.field->elements().size() == index_.element_count());
@@ -173,6 +174,7 @@ class GridEstimate {
     p.settings = {{"directions", std::to_string(scene_.set.count())},
                   {"cell_m", number(scene_.layout.mean_cell_m())},
                   {"cells", std::to_string(scene_.cells())},
+                  {"direct_sun", sun_is_given_ ? "given" : "marched"},
                   {"convergence", number(options_.convergence)},
                   {"iterations", std::to_string(iterations_)}};
     p.notes.insert(p.notes.end(), prepared_.notes.begin(), prepared_.notes.end());
@@ -186,6 +188,7 @@ class GridEstimate {
   const GridPrepared& prepared_;
   const TransportScene& scene_;
   const DirectSun* const sun_;
+  const bool sun_is_given_;
   const GridSky& sky_;
   const RunControl& control_;
   int iterations_ = 0;

@@ -1,17 +1,18 @@
 // grid: discrete ordinates on the leaf-area grid, all bounces of sun and sky. Radiance is swept through the
 // grid along 8, 14 or 26 directions; every leaf scatters with its own angle and optics into its cell; wood is
-// opaque; the ground is a Lambertian plane. Direct sun: one march of the grid per leaf.
+// opaque; the ground is a Lambertian plane. Direct sun: one march of the grid per leaf, or given.
 //
 // Good for crowns and stands that are random media at the scale of a cell (2 to 4 leaf sides): leaf-exact sun
-// patterns need rays, plants of a few hundred leaves too (grid_limits.h says so before any work, a note
-// afterwards). In a periodic scene directions that never reach the ground or the sky are replaced by others
-// close to level (16 instead of 14 directions).
+// patterns need rays (which may have drawn them before, see grid_sources()), plants of a few hundred leaves
+// too (grid_limits.h says so before any work, a note afterwards). In a periodic scene directions that never
+// reach the ground or the sky are replaced by others close to level (16 instead of 14 directions).
 //
 // Three steps, each kept by whoever asks again: prepare_grid() for the forest, grid_sources() for a sun
 // direction and a sky model, grid_light_map() for strengths and bands.
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "lighting/base/light_map.h"
 #include "lighting/optics/optics.h"
@@ -63,6 +64,15 @@ GridPrepared prepare_grid(const Forest& forest, const GridOptions& options, cons
 // Takes over what still holds of `before` (sources of the same `prepared`).
 GridSources grid_sources(const Forest& forest, const Illumination& light, const GridPrepared& prepared,
                          const GridSources& before, const RunControl& control);
+
+// The same with the direct sun of the elements already known: the share of each that the sun reaches, [0, 1],
+// in ForestIndex order, from a picture of the sun or shadow rays (lighting/trace/direct_exposure.h). It
+// becomes the direct part of the answer and the source of scattered light, in place of one march per element;
+// ground and wood are still marched. What still holds of `before` is its sky. Throws Error(kInvalidInput)
+// naming "sunlit_fraction".
+GridSources grid_sources(const Forest& forest, const Illumination& light, const GridPrepared& prepared,
+                         std::span<const float> sunlit_fraction, const GridSources& before,
+                         const RunControl& control);
 
 // `prepared` and `sources` must be those of this forest and this light's directions. Throws
 // Error(kInvalidInput) naming "grid.<field>" or "illumination.<field>"; Error(kCancelled). Sky and scattered

@@ -10,6 +10,7 @@ namespace sunfleck::transport {
 
 struct GridSun {
   Vec3 to_sun{0, 0, 1};
+  bool given = false;  // the elements' light was known before
   DirectSun light;
 };
 

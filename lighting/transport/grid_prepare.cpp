@@ -40,6 +40,52 @@ bool any(const Illumination& light, double BandLight::*strength) {
   return std::ranges::any_of(light.bands, [&](const BandLight& b) { return b.*strength > 0.0; });
 }
 
+bool has_sun(const Illumination& light) {
+  return light.sun_is_up() && any(light, &BandLight::beam_normal_w_m2);
+}
+
+void check_sunlit_fraction(std::span<const float> sunlit_fraction, std::size_t elements) {
+  if (sunlit_fraction.size() != elements)
+    throw_invalid("sunlit_fraction",
+                  std::to_string(sunlit_fraction.size()) + " values for " + std::to_string(elements) +
+                      " foliage elements",
+                  "one value per element, in ForestIndex order");
+  for (std::size_t e = 0; e < elements; ++e)
+    if (!(sunlit_fraction[e] >= 0.0f && sunlit_fraction[e] <= 1.0f))
+      throw_invalid("sunlit_fraction",
+                    "element " + std::to_string(e) + " has " + std::to_string(sunlit_fraction[e]),
+                    "a share from 0 to 1");
+}
+
+std::shared_ptr<const GridSun> sun_of(const Forest& forest, const Illumination& light,
+                                      const GridPrepared& prepared, std::span<const float> sunlit_fraction,
+                                      const RunControl& control) {
+  return std::make_shared<const GridSun>(
+      GridSun{light.to_sun, !sunlit_fraction.empty(),
+              direct_sun(*prepared.scene, forest, light.to_sun, sunlit_fraction, control)});
+}
+
+std::shared_ptr<const GridSky> sky_of(const Forest& forest, const Illumination& light,
+                                      const GridPrepared& prepared, const GridSources& before,
+                                      const RunControl& control) {
+  const TransportScene& scene = *prepared.scene;
+  const bool needed = any(light, &BandLight::diffuse_horizontal_w_m2);
+  if (before.sky && before.sky->key == sky_key(light) && (before.sky->swept || !needed)) return before.sky;
+  GridSky sky{.key = sky_key(light),
+              .sectors = sky_sectors(scene.set, sky_radiance(light), forest.terrain.normal()),
+              .swept = needed,
+              .radiance = {},
+              .on_elements = {}};
+  if (needed) {
+    sky.radiance = sky_radiance(scene, sky.sectors, control);
+    sky.on_elements = gather(scene, sky.radiance, {}, control);
+  } else {
+    sky.radiance.assign(scene.set.count() * scene.cells(), 0.0f);
+    sky.on_elements.resize(scene.field->elements().size());
+  }
+  return std::make_shared<const GridSky>(std::move(sky));
+}
+
 }  // namespace
 
 GridPrepared prepare_grid(const Forest& forest, const GridOptions& options, const RunControl& control) {
@@ -71,31 +117,22 @@ GridPrepared prepare_grid(const Forest& forest, const GridOptions& options, cons
 GridSources grid_sources(const Forest& forest, const Illumination& light, const GridPrepared& prepared,
                          const GridSources& before, const RunControl& control) {
   SUNFLECK_EXPECTS(prepared.scene != nullptr);
-  const TransportScene& scene = *prepared.scene;
-  const Illumination checked_light = checked(light, light.bands.size());
-  GridSources sources = before;
-  if (!checked_light.sun_is_up() || !any(light, &BandLight::beam_normal_w_m2)) {
-    sources.sun.reset();
-  } else if (!before.sun || before.sun->to_sun != checked_light.to_sun) {
-    sources.sun = std::make_shared<const GridSun>(
-        GridSun{checked_light.to_sun, direct_sun(scene, forest, checked_light.to_sun, control)});
-  }
-  const bool needed = any(light, &BandLight::diffuse_horizontal_w_m2);
-  if (before.sky && before.sky->key == sky_key(light) && (before.sky->swept || !needed)) return sources;
-  GridSky sky{.key = sky_key(light),
-              .sectors = sky_sectors(scene.set, sky_radiance(light), forest.terrain.normal()),
-              .swept = needed,
-              .radiance = {},
-              .on_elements = {}};
-  if (needed) {
-    sky.radiance = sky_radiance(scene, sky.sectors, control);
-    sky.on_elements = gather(scene, sky.radiance, {}, control);
-  } else {
-    sky.radiance.assign(scene.set.count() * scene.cells(), 0.0f);
-    sky.on_elements.resize(scene.field->elements().size());
-  }
-  sources.sky = std::make_shared<const GridSky>(std::move(sky));
-  return sources;
+  const Illumination good = checked(light, light.bands.size());
+  const bool kept = before.sun && !before.sun->given && before.sun->to_sun == good.to_sun;
+  return {!has_sun(good) ? nullptr
+          : kept         ? before.sun
+                         : sun_of(forest, good, prepared, {}, control),
+          sky_of(forest, good, prepared, before, control)};
+}
+
+GridSources grid_sources(const Forest& forest, const Illumination& light, const GridPrepared& prepared,
+                         std::span<const float> sunlit_fraction, const GridSources& before,
+                         const RunControl& control) {
+  SUNFLECK_EXPECTS(prepared.scene != nullptr);
+  check_sunlit_fraction(sunlit_fraction, prepared.scene->field->elements().size());
+  const Illumination good = checked(light, light.bands.size());
+  return {has_sun(good) ? sun_of(forest, good, prepared, sunlit_fraction, control) : nullptr,
+          sky_of(forest, good, prepared, before, control)};
 }
 
 }  // namespace sunfleck
