@@ -26,8 +26,8 @@ struct GridOptions {
   // ---- part of the preparation
   int directions = 26;  // 8, 14 or 26
   // Edge of a cell; 0: clamp(extent / 32, 2 side, 4 side) with the extent of the mean tree and the mean side
-  // of a leaf (grid_limits.h), coarser, with a note, where the cells would not fit into the memory limit. A
-  // size given here is kept or refused.
+  // of a leaf, finer in clumped crowns (grid_limits.h), coarser, with a note, where the cells would not fit
+  // into the memory limit. A size given here is kept or refused.
   double cell_m = 0;
   std::uint64_t memory_limit_bytes = 3ull << 29;  // of cells and elements together, see grid_limits.h
   // ---- part of each answer

@@ -7,6 +7,7 @@
 
 #include "lighting/depth/blocker_field.h"
 #include "lighting/depth/grid_frame.h"
+#include "lighting/transport/leaf_clumping.h"
 #include "sim/base/error.h"
 
 namespace sunfleck {
@@ -14,6 +15,8 @@ namespace sunfleck {
 namespace {
 
 constexpr double kCellsAcross = 32.0;  // a tree, as leaf_cell_size() has it
+// Clumps blur in cells not much smaller than they: cells finer by the clumping of the leaves, up to this.
+constexpr double kFinestForClumps = 1.4;
 // Cells in the box around a tree, where cells of 4 sides would be more: crowns of 200,000 leaves and more.
 constexpr double kMostCellsPerLeaf = 0.65;
 
@@ -45,39 +48,52 @@ SideSums side_sums(const Prototype& prototype) {
 
 // Of leaves and trees of a forest, each by its leaf area.
 struct MeanTree {
-  double leaf_side_m = 0, extent_m = 0, box_per_leaf_m3 = 0;
+  double leaf_side_m = 0, extent_m = 0, box_per_leaf_m3 = 0, clumping = 1;
 };
+
+double largest(const Vec3& size) { return std::max({size.x, size.y, size.z}); }
+
+double clumping_of(const Prototype& prototype, const SideSums& sums, const Vec3& size_m) {
+  if (!(sums.area_m2 > 0.0 && largest(size_m) > 0.0)) return 1.0;
+  const double side_m = sums.weighted_side_m3 / sums.area_m2;
+  return transport::leaf_clumping(prototype, std::max(largest(size_m) / kCellsAcross, 2.0 * side_m));
+}
 
 MeanTree mean_tree(const Forest& forest) {
   std::vector<SideSums> of_prototype;
   std::vector<Vec3> size_m;
+  std::vector<double> clumping;
   for (const Prototype& p : forest.prototypes) {
     of_prototype.push_back(side_sums(p));
     size_m.push_back(p.foliage.empty() ? Vec3(0) : prototype_bounds(p).size());
+    clumping.push_back(clumping_of(p, of_prototype.back(), size_m.back()));
   }
-  MeanTree mean;
+  MeanTree mean{.clumping = 0.0};
   double area_m2 = 0.0;
   for (const Instance& i : forest.instances) {
     const std::size_t p = i.prototype.value;
     const double scale = i.scale, area = scale * scale * of_prototype[p].area_m2;
     area_m2 += area;
     mean.leaf_side_m += scale * scale * scale * of_prototype[p].weighted_side_m3;
-    mean.extent_m += area * scale * std::max({size_m[p].x, size_m[p].y, size_m[p].z});
+    mean.extent_m += area * scale * largest(size_m[p]);
+    mean.clumping += area * clumping[p];
     if (area > 0.0)
       mean.box_per_leaf_m3 += area * std::pow(scale, 3) * size_m[p].x * size_m[p].y * size_m[p].z /
                               static_cast<double>(forest.prototypes[p].foliage.size());
   }
   if (!(area_m2 > 0.0)) return {};
-  return {mean.leaf_side_m / area_m2, mean.extent_m / area_m2, mean.box_per_leaf_m3 / area_m2};
+  return {mean.leaf_side_m / area_m2, mean.extent_m / area_m2, mean.box_per_leaf_m3 / area_m2,
+          mean.clumping / area_m2};
 }
 
 // Not from the extent of the whole forest: cells of 4 sides for a stand whose crowns alone get 2 let 5 to 8 %
 // too much light through clumped crowns.
 double cell_of_mean_tree(const MeanTree& tree) {
   if (!(tree.extent_m > 0.0 && tree.leaf_side_m > 0.0)) return 0.0;
-  const double cell = leaf_cell_size(tree.extent_m, tree.leaf_side_m);
+  const double wanted = tree.extent_m / (kCellsAcross * std::clamp(tree.clumping, 1.0, kFinestForClumps));
+  if (wanted <= kMostSides * tree.leaf_side_m) return std::max(wanted, 2.0 * tree.leaf_side_m);
   const double few_per_leaf = std::cbrt(tree.box_per_leaf_m3 / kMostCellsPerLeaf);
-  return std::max(cell, std::min(tree.extent_m / kCellsAcross, few_per_leaf));
+  return std::max(kMostSides * tree.leaf_side_m, std::min(wanted, few_per_leaf));
 }
 
 Box field_bounds(const Forest& forest, const GridFrame& frame) {

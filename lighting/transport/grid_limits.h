@@ -1,11 +1,12 @@
 // What the grid method can and cannot do for a forest, known before any work from prototypes, instances and
 // bounds alone.
 //
-// The rule: a cell is clamp(extent / 32, 2 sides, 4 sides), extent that of the mean tree and not of the
-// stand; in trees of more than 200,000 leaves as much larger as keeps cells fewer than leaves. Below 1.5
-// sides (kFewestSides) a leaf lights and shades itself and depths are wrong by tens of percent; above 4 sides
-// crowns blur; prototypes of fewer than 300 elements (kFewElements) are no random medium: rays suit all three
-// better. The side is the area-weighted mean root of a leaf's area, for shoots of their mean silhouette.
+// The rule: a cell is clamp(extent / (32 c), 2 sides, 4 sides), extent that of the mean tree and not of the
+// stand, c how clumped its leaves are (leaf_clumping.h), 1 to 1.4; in trees of more than 200,000 leaves as
+// much larger as keeps cells fewer than leaves. Below 1.5 sides (kFewestSides) a leaf lights and shades
+// itself and depths are wrong by tens of percent; above 4 sides crowns blur; prototypes of fewer than 300
+// elements (kFewElements) are no random medium: rays suit all three better. The side is the area-weighted
+// mean root of a leaf's area, for shoots of their mean silhouette.
 #pragma once
 
 #include <cstdint>

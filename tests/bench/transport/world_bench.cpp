@@ -91,7 +91,7 @@ int run(int argc, char** argv) {
       std::cout << " | " << t.stage << ' ' << t.wall_s << " cpu " << t.cpu_s;
     std::cout << '\n';
     double wall = 0.0, slowest = 0.0, cpu = 0.0, least_cpu = 1e9;
-    constexpr int kTrees = 12;
+    constexpr int kTrees = 60;
     std::string settings;
     for (int k = 0; k < kTrees; ++k) {
       const std::size_t tree = (static_cast<std::size_t>(instances) / 2 + static_cast<std::size_t>(k) * 7) %

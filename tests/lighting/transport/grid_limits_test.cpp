@@ -7,7 +7,9 @@
 
 #include "lighting/transport/grid_limits.h"
 #include "lighting/transport/grid_parts.h"
+#include "lighting/transport/leaf_clumping.h"
 #include "sim/base/error.h"
+#include "sim/base/random.h"
 #include "sim/forest/generated_scenes.h"
 #include "tests/lighting/transport/grid_light.h"
 
@@ -56,6 +58,50 @@ TEST(CellRule, GivesTreesOfManyLeavesNoMoreCellsThanLeaves) {
     if (leaves == 300000) {
       EXPECT_NEAR(size.x * size.y * size.z / (cell * cell * cell), 0.65 * leaves, 1.0);
     }
+  }
+}
+
+// Leaves evenly in a cube of 16 cells, in a level sheet of it, or in every eighth cell alone: 8, 4 and 1
+// times the neighbours in cells twice as wide. Some 20 others share a leaf's wide cell: 20,000 leaves tell it
+// to 1 %.
+TEST(Clumping, IsOneForEvenLeavesTwoForSheetsAndEightForFullCells) {
+  enum class Spread { kEven, kSheet, kClumps };
+  const auto clumping = [](Spread spread) {
+    Prototype prototype;
+    RandomStream random(3, 0, RandomPurpose::kTestScene);
+    for (int i = 0; i < 20000; ++i) {
+      Vec3 at(random.uniform(0, 16), random.uniform(0, 16), random.uniform(0, 16));
+      if (spread == Spread::kSheet) at.z = 0.5;
+      if (spread == Spread::kClumps) at = 2.0 * glm::floor(0.5 * at) + 0.25;
+      prototype.foliage.push_back(leaf_towards({0, 0, 1}, 0.01, at));
+    }
+    for (const double corner : {0.0, 15.75})  // of the box; the last is alone or in the last clump
+      prototype.foliage.push_back(
+          leaf_towards({0, 0, 1}, 0.01, Vec3(corner, corner, spread == Spread::kSheet ? 0 : corner)));
+    return transport::leaf_clumping(prototype, 1.0);
+  };
+  EXPECT_NEAR(clumping(Spread::kEven), 1.0, 0.03);
+  EXPECT_NEAR(clumping(Spread::kSheet), 2.0, 0.04);
+  EXPECT_NEAR(clumping(Spread::kClumps), 8.0, 0.01);
+}
+
+TEST(Clumping, CannotBeToldFromAFewLeaves) {
+  EXPECT_EQ(transport::leaf_clumping(Prototype{}, 1.0), 1.0);
+  Prototype one;
+  one.foliage.push_back(leaf_towards({0, 0, 1}));
+  EXPECT_EQ(transport::leaf_clumping(one, 1.0), 1.0);
+  for (int i = 1; i < 10; ++i) one.foliage.push_back(one.foliage[0]);  // 45 pairs in one place
+  EXPECT_EQ(transport::leaf_clumping(one, 1.0), 1.0);
+}
+
+TEST(CellRule, RefinesClumpedCrowns) {
+  for (const std::uint64_t seed : {5, 6, 7}) {
+    const auto sides = [&](CrownKind kind) {
+      const Forest forest = generated_crown({.kind = kind, .leaves = 40000, .crown_lai = 5, .seed = seed});
+      return grid_suitability(forest, {}).cell_sides;
+    };
+    EXPECT_NEAR(sides(CrownKind::kClumped), 2.3, 0.1) << seed;
+    EXPECT_NEAR(sides(CrownKind::kSphere), 3.1, 0.1) << seed;
   }
 }
 
