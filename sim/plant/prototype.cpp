@@ -71,6 +71,22 @@ std::string element_problem(const FoliageElement& e, std::size_t materials) {
   return {};
 }
 
+// Of the parallelograms alone: most forests are made of them, and this is asked for often.
+Box flat_quad_bounds(const Prototype& prototype) {
+  Box box;
+  for (const FoliageElement& e : prototype.foliage) {
+    if (e.shape != ElementShape::kParallelogram) continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double centre = e.centre_m[axis];
+      const double extent =
+          std::abs(static_cast<double>(e.half_u_m[axis])) + std::abs(static_cast<double>(e.half_v_m[axis]));
+      box.lo[axis] = std::min(box.lo[axis], centre - extent);
+      box.hi[axis] = std::max(box.hi[axis], centre + extent);
+    }
+  }
+  return box;
+}
+
 }  // namespace
 
 Vec3 element_normal(const FoliageElement& e) {
@@ -123,8 +139,9 @@ Box element_bounds(const FoliageElement& e) {
 }
 
 Box prototype_bounds(const Prototype& prototype) {
-  Box box;
-  for (const FoliageElement& e : prototype.foliage) box.include(element_bounds(e));
+  Box box = flat_quad_bounds(prototype);
+  for (const FoliageElement& e : prototype.foliage)
+    if (e.shape != ElementShape::kParallelogram) box.include(element_bounds(e));
   for (const WoodSegment& s : prototype.wood) {
     const Vec3 axis = unit_or_zero(Vec3(s.to_m) - Vec3(s.from_m));
     const Vec3 lower = rim_extent(axis, s.radius_from_m), upper = rim_extent(axis, s.radius_to_m);

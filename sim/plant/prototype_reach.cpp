@@ -10,7 +10,8 @@ namespace {
 
 constexpr double kRounding = 1e-6;
 
-double from_axis(const Vec3& point) { return std::hypot(point.x, point.y); }
+// Coordinates are floats, whose squares do not leave the range of doubles.
+double from_axis(const Vec3& point) { return std::sqrt(point.x * point.x + point.y * point.y); }
 
 double element_reach(const FoliageElement& e) {
   const Vec3 centre(e.centre_m), u(e.half_u_m), v(e.half_v_m);
