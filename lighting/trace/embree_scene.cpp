@@ -129,7 +129,7 @@ void sort_elements_by_shape(const Prototype& prototype, PrototypeScene& out) {
 
 bool is_start(const RayContext& context, unsigned copy, HitKind kind, std::uint32_t local) {
   if (kind != context.from.kind || local != context.from.local) return false;
-  const SceneCopy& c = context.copies[copy];
+  const PlacedInstance c = placed_instance(context, copy);
   return c.instance == context.from.instance && c.shift.x + context.cell.x == 0 &&
          c.shift.y + context.cell.y == 0;
 }

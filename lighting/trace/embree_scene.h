@@ -72,8 +72,8 @@ struct SceneCopy {
 
 // What the callbacks need to know of a ray; Embree hands it through.
 struct RayContext {
-  RTCIntersectContext embree;  // first: Embree's pointer to it is a pointer to all
-  const SceneCopy* copies = nullptr;
+  RTCIntersectContext embree;         // first: Embree's pointer to it is a pointer to all
+  const SceneCopy* copies = nullptr;  // null: each instance is one copy (instance_table.h)
   RayStart from;
   Cell cell;  // the cell of the period that the ray is in
   std::uint64_t ray_key = 0;
@@ -87,13 +87,23 @@ inline unsigned copy_met(const PrototypeScene& figures, unsigned embree_instance
   return figures.copy == PrototypeScene::kManyCopies ? embree_instance : figures.copy;
 }
 
+// Which instance a copy is, and in which cell.
+struct PlacedInstance {
+  std::uint32_t instance;
+  Cell shift;
+};
+inline PlacedInstance placed_instance(const RayContext& context, unsigned copy) {
+  if (context.copies == nullptr) return {copy, {}};
+  return {context.copies[copy].instance, context.copies[copy].shift};
+}
+
 // True if the hit lies on the surface the ray starts from, in that very copy.
 bool is_start(const RayContext& context, unsigned copy, HitKind kind, std::uint32_t local);
 
 // True if the copy is the very instance that the ray passes, not one of its other periods.
 inline bool is_passed(const RayContext& context, unsigned copy) {
   if (context.passed_instance == RayContext::kNoInstance) return false;
-  const SceneCopy& c = context.copies[copy];
+  const PlacedInstance c = placed_instance(context, copy);
   return c.instance == context.passed_instance && c.shift.x + context.cell.x == 0 &&
          c.shift.y + context.cell.y == 0;
 }

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "lighting/trace/embree_scene.h"
+#include "lighting/trace/instance_table.h"
 #include "lighting/trace/ray_walk.h"
 #include "lighting/trace/scene_copies.h"
 #include "sim/base/contract.h"
@@ -22,13 +23,20 @@ struct RayScene::State {
   Vec3 centre_m{0};
   Surroundings around;
   std::vector<PrototypeScene> figures;  // of each prototype, or of each copy
-  std::vector<SceneCopy> copies;
-  bool flat = false;  // every copy is written out
+  std::vector<SceneCopy> copies;        // none where there is a table
+  bool flat = false;                    // every copy is written out
+  InstanceTable table;                  // of very many trees that do not repeat
   SceneHandle top;
   std::size_t wrapped_copies = 0;
   bool has_shoots = false;
 
   State(const Forest& forest, const Options& options, const RunControl& control);
+  void build(const Forest& forest, const Options& options, const RunControl& control);
+  void build_prototypes(const Forest& forest, const RunControl& control);
+  SceneCopy copy_met(const RTCHit& hit) const {
+    if (!table.rows.empty()) return copy_in_table(table, hit.instID[0]);
+    return copies[flat ? hit.geomID / kSlots : hit.instID[0]];
+  }
   // In the scene's coordinates. A ray from the ground starts a hair below it, so that it meets what lies
   // there.
   Vec3 start_of(const Vec3& origin_m, const RayStart& from) const {
@@ -67,11 +75,12 @@ std::uint64_t key_of(const Vec3& origin, const Vec3& direction) {
   return key;
 }
 
+// No copies: each instance is one.
 RayContext context_for(const std::vector<SceneCopy>& copies, const RayStart& from,
                        std::uint32_t passed_instance) {
   RayContext context;
   rtcInitIntersectContext(&context.embree);
-  context.copies = copies.data();
+  context.copies = copies.empty() ? nullptr : copies.data();
   context.from = from;
   context.passed_instance = passed_instance;
   return context;
@@ -166,18 +175,32 @@ RayHit ended(const RayEnd& end, const Surroundings& around, const Vec3& ground_n
 RayScene::State::State(const Forest& forest, const Options& options, const RunControl& control) {
   centre_m = centre_of(forest);
   around = surroundings_of(forest, options, centre_m);
+  build(forest, options, control);
+  for (const PrototypeScene& f : figures) has_shoots = has_shoots || !f.shoots.empty();
+}
+
+void RayScene::State::build_prototypes(const Forest& forest, const RunControl& control) {
+  figures.resize(forest.prototypes.size());
+  for (std::size_t i = 0; i < figures.size(); ++i)
+    build_prototype_scene(device, forest.prototypes[i], figures[i], control);
+}
+
+void RayScene::State::build(const Forest& forest, const Options& options, const RunControl& control) {
+  if (!around.periodic && forest.instances.size() >= options.table_from) {
+    build_prototypes(forest, control);
+    table = make_instance_table(forest, figures, centre_m);
+    top = build_table_scene(device, table, control);
+    return;
+  }
   copies = copies_of(forest, around, centre_m);
   for (const SceneCopy& copy : copies) wrapped_copies += copy.shift == Cell{} ? 0 : 1;
   flat = is_flat_better(figures_of(forest, copies), copies.size(), options.expected_rays);
   if (flat) {
     top = build_flat_scene(device, forest, copies, figures, around, centre_m, control);
   } else {
-    figures.resize(forest.prototypes.size());
-    for (std::size_t i = 0; i < figures.size(); ++i)
-      build_prototype_scene(device, forest.prototypes[i], figures[i], control);
+    build_prototypes(forest, control);
     top = build_top_scene(device, forest, copies, figures, around, centre_m, control);
   }
-  for (const PrototypeScene& f : figures) has_shoots = has_shoots || !f.shoots.empty();
 }
 
 RayScene::RayScene(const Forest& forest, const Options& options, const RunControl& control)
@@ -234,7 +257,7 @@ RayHit RayScene::closest_on(const Way& way) const {
     found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(s.top.get(), &context.embree, &found);
     if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-    const SceneCopy& copy = s.copies[s.flat ? found.hit.geomID / kSlots : found.hit.instID[0]];
+    const SceneCopy copy = s.copy_met(found.hit);
     hit = described(found, copy, piece, direction, context.ray_key);
     hit.on_original_m = into_base_cell(s.around, hit.position_m, copy.shift);
     return true;
@@ -266,6 +289,9 @@ bool RayScene::occluded_on(const Way& way) const {
 }
 
 std::size_t RayScene::copies() const { return state_->wrapped_copies; }
-std::size_t RayScene::memory_bytes() const { return state_->device.bytes(); }
+std::size_t RayScene::memory_bytes() const {
+  const State& s = *state_;
+  return s.device.bytes() + s.copies.size() * sizeof(SceneCopy) + s.table.rows.size() * sizeof(TreeRow);
+}
 
 }  // namespace sunfleck

@@ -50,6 +50,8 @@ class RayScene {
     // written out into one structure, which takes longer to build, about 250 bytes per figure, and a half to
     // a tenth of the time per ray where crowns interlock.
     double expected_rays = 0;
+    // From this number of trees on a forest that does not repeat is kept in rows of 24 bytes per tree.
+    std::size_t table_from = 50'000;
   };
   // Throws Error(kCancelled) when stopped while building.
   RayScene(const Forest& forest, const Options& options, const RunControl& control = {});
@@ -71,7 +73,7 @@ class RayScene {
                      const RayStart& from) const;
 
   std::size_t copies() const;        // wrapped copies added for the period
-  std::size_t memory_bytes() const;  // of Embree's structures
+  std::size_t memory_bytes() const;  // of Embree's structures and the places of the trees
 
  private:
   struct State;
