@@ -74,6 +74,12 @@ SkyResponse sky_response(const Forest& forest, const ForestGrids& grids, const C
 ScatteredCells scattered_sky_light(const SkyResponse& response, std::span<const double> sources,
                                    const RunControl& control);
 
+// A sky over a band that was not asked before: closed forms and their sum in one pass, the same numbers as
+// scattered_sky_light(sky_response(...), sources) without keeping what each source leaves.
+ScatteredCells scattered_sky_light(const Forest& forest, const ForestGrids& grids, const CellDepths& cells,
+                                   const ResponseMedium& medium, std::span<const float> compensation,
+                                   std::span<const double> sources, const RunControl& control);
+
 // Mean optics of the forest's leaves and wood in a band, prototypes weighted by the leaf area of their
 // instances.
 CanopyOptics forest_optics(const Forest& forest, std::span<const CanopyOptics> optics);

@@ -109,9 +109,8 @@ class Estimate {
     sources_ = sky_sources(cells.directions, sky_radiance(light_), forest_.terrain.normal());
     for (std::size_t b = 0; b < sky_.size(); ++b)
       if (light_.bands[b].diffuse_horizontal_w_m2 > 0.0 && !is(SppVariant::kSingleScattering))
-        sky_[b] = scattered_sky_light(
-            sky_response(forest_, prepared_->grids, cells, medium_of(b), prepared_->compensation, control_),
-            sources_, control_);
+        sky_[b] = scattered_sky_light(forest_, prepared_->grids, cells, medium_of(b), prepared_->compensation,
+                                      sources_, control_);
   }
 
   void light_from_sun() {

@@ -55,17 +55,21 @@ struct WidePart {
   load_wide(own_near, p.radiance[p.corners.own_cell].near);
   load_wide(own_far, p.radiance[p.corners.own_cell].far);
   load_wide(solid_angle_sr, lanes.solid_angle_sr);
-  // What reaches the front travels as what the part sends off its back. Compared with where it is used: a
-  // mask of its own is taken apart.
+  // What reaches the front travels as what the part sends off its back.
   const WideLanes nothing = {}, off_front = nothing + p.given.front * kPerPi,
                   off_back = nothing + p.given.back * kPerPi;
-  near += wide.own * (own_near - (wide.cosine >= nothing ? off_back : off_front));
-  far += wide.own * (own_far - (wide.cosine >= nothing ? off_front : off_back));
+  WideMask from_behind;
+  negative_lanes(from_behind, wide.cosine);
+  WideLanes off_near, off_far, to_front, to_back;
+  choose_wide(off_near, from_behind, off_front, off_back);
+  choose_wide(off_far, from_behind, off_back, off_front);
+  near += wide.own * (own_near - off_near);
+  far += wide.own * (own_far - off_far);
   near = near > nothing ? near : nothing;
   far = far > nothing ? far : nothing;
-  const WideLanes weight = solid_angle_sr * wide.cover;
-  const WideLanes front = weight * (wide.cosine >= nothing ? near : far),
-                  back = weight * (wide.cosine >= nothing ? far : near);
+  choose_wide(to_front, from_behind, far, near);
+  choose_wide(to_back, from_behind, near, far);
+  const WideLanes weight = solid_angle_sr * wide.cover, front = weight * to_front, back = weight * to_back;
   float sums[3];
   sums_wide(weight, front, back, sums);
   const float per_radiance = kPiF / sums[0];

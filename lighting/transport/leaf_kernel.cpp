@@ -98,15 +98,18 @@ struct WideCell {
   const LeafPart& part = order.parts[p];
   const FacePair sent = radiosity_of(order.bands[part.optics], part.shoot > 0, order.last[p]);
   const float sent_front = sent.front * kPerPi, sent_back = sent.back * kPerPi;
-  const WideLanes nothing = {};  // compared with where it is used: a mask of its own is taken apart
+  const WideLanes nothing = {};
   WideLanes cosine, depth;
   step_depth(order, part, wide, cosine, depth);
   const WideLanes whole = 0.5f * depth, most = nothing + 0.3f, a = whole < most ? whole : most,
                   own = a + 0.5f * a * a;
   depth *= wide.per_step;
   const WideLanes weight = wide.solid_angle_sr * depth;
-  const WideLanes to_front = cosine >= nothing ? wide.near : wide.far,
-                  to_back = cosine >= nothing ? wide.far : wide.near;
+  WideMask from_behind;
+  negative_lanes(from_behind, cosine);
+  WideLanes to_front, to_back;
+  choose_wide(to_front, from_behind, wide.far, wide.near);
+  choose_wide(to_back, from_behind, wide.near, wide.far);
   WideLanes front = to_front + own * (to_front - sent_back), back = to_back + own * (to_back - sent_front);
   front = weight * (front > nothing ? front : nothing);
   back = weight * (back > nothing ? back : nothing);
@@ -117,8 +120,11 @@ struct WideCell {
   const WideLanes off_front = nothing + done.given.front * kPerPi,
                   off_back = nothing + done.given.back * kPerPi;
   // Light arriving from w travels along -w: off the back where w is on the front's side.
-  wide.source_near += depth * (cosine >= nothing ? off_back : off_front);
-  wide.source_far += depth * (cosine >= nothing ? off_front : off_back);
+  WideLanes off_near, off_far;
+  choose_wide(off_near, from_behind, off_front, off_back);
+  choose_wide(off_far, from_behind, off_back, off_front);
+  wide.source_near += depth * off_near;
+  wide.source_far += depth * off_far;
   wide.depth += depth;
   return keep(order, p, done);
 }

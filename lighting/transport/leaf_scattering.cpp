@@ -1,6 +1,8 @@
 // See leaf_scattering.h.
 #include "lighting/transport/leaf_scattering.h"
 
+#include <algorithm>
+
 #include "sim/base/parallel.h"
 
 namespace sunfleck::transport {
@@ -97,14 +99,29 @@ void LeafScattering::finish_cell(std::uint32_t c, const CellLight& cell, std::sp
   }
 }
 
-void LeafScattering::leave_alone(std::uint32_t c, std::span<float> source) const {
-  const Lanes nothing{};
-  const Lanes& near = background_ != nullptr ? alone_near_[background_->of_cell[c]] : nothing;
-  const Lanes& far = background_ != nullptr ? alone_far_[background_->of_cell[c]] : nothing;
+void LeafScattering::leave_alone(std::uint32_t begin, std::uint32_t end, std::span<float> source) const {
   for (std::size_t j = 0; j < half_; ++j) {
-    source[j * cells_ + c] = near[j];
-    source[(half_ + j) * cells_ + c] = far[j];
+    float* near = source.data() + j * cells_;
+    float* far = source.data() + (half_ + j) * cells_;
+    if (background_ == nullptr) {
+      std::fill(near + begin, near + end, 0.0f);
+      std::fill(far + begin, far + end, 0.0f);
+      continue;
+    }
+    const std::uint32_t* kind = background_->of_cell.data();
+    for (std::uint32_t c = begin; c < end; ++c) {
+      near[c] = alone_near_[kind[c]][j];
+      far[c] = alone_far_[kind[c]][j];
+    }
   }
+}
+
+// First cell from `cell` on, and before `end`, that holds a part or wood; `wood` is the next entry of wood.
+std::uint32_t LeafScattering::next_filled(std::uint32_t cell, std::uint32_t end, std::uint32_t wood) const {
+  const std::uint32_t next_wood =
+      wood < contents_.wood.size() ? std::min(end, contents_.wood[wood].cell) : end;
+  while (cell < next_wood && contents_.first_part[cell] == contents_.first_part[cell + 1]) ++cell;
+  return cell;
 }
 
 template <class PartsVisit, class WoodVisit>
@@ -116,11 +133,11 @@ void LeafScattering::for_each_cell(std::span<const float> radiance, std::span<fl
     const CellRange& range = contents_.ranges[r];
     std::uint32_t wood = range.wood_begin;
     for (std::uint32_t c = range.begin; c < range.end; ++c) {
+      const std::uint32_t filled = next_filled(c, range.end, wood);
+      leave_alone(c, filled, source);
+      c = filled;
+      if (c == range.end) break;
       const bool has_wood = wood < range.wood_end && contents_.wood[wood].cell == c;
-      if (first_part[c] == first_part[c + 1] && !has_wood) {
-        leave_alone(c, source);
-        continue;
-      }
       CellLight cell;
       start_cell(c, radiance, cell);
       parts_visit(r, first_part[c], first_part[c + 1], cell);

@@ -68,7 +68,8 @@ class LeafScattering {
                      const PartsVisit& parts_visit, const WoodVisit& wood_visit) const;
   void start_cell(std::uint32_t cell, std::span<const float> radiance, CellLight& light) const;
   void finish_cell(std::uint32_t cell, const CellLight& light, std::span<float> source) const;
-  void leave_alone(std::uint32_t cell, std::span<float> source) const;
+  void leave_alone(std::uint32_t begin, std::uint32_t end, std::span<float> source) const;
+  std::uint32_t next_filled(std::uint32_t cell, std::uint32_t end, std::uint32_t wood) const;
 
   const CellContents& contents_;
   const DirectionLanes& lanes_;

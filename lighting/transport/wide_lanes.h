@@ -24,6 +24,22 @@ typedef std::int32_t WideMask __attribute__((vector_size(sizeof(Lanes))));
   std::memcpy(&value, &bits, sizeof value);
 }
 
+// Lanes of a value that are below zero, bit by bit: the compiler takes masks of comparisons apart where more
+// than one choice hangs on them.
+[[gnu::always_inline]] inline void negative_lanes(WideMask& negative, const WideLanes& value) {
+  WideMask bits;
+  std::memcpy(&bits, &value, sizeof bits);
+  negative = bits >> 31;
+}
+[[gnu::always_inline]] inline void choose_wide(WideLanes& chosen, const WideMask& negative,
+                                               const WideLanes& where_negative, const WideLanes& elsewhere) {
+  WideMask a, b;
+  std::memcpy(&a, &where_negative, sizeof a);
+  std::memcpy(&b, &elsewhere, sizeof b);
+  const WideMask bits = (a & negative) | (b & ~negative);
+  std::memcpy(&chosen, &bits, sizeof chosen);
+}
+
 // Sums of three values in the order of sum_of().
 [[gnu::always_inline]] inline void sums_wide(const WideLanes& a, const WideLanes& b, const WideLanes& c,
                                              float (&sums)[3]) {

@@ -96,10 +96,13 @@ class TreeSolver {
   }
 
   std::vector<float> nearest(const std::vector<float>& block) const {
-    std::vector<float> radiance(space_.fine.set.count() * space_.fine.cells());
+    const std::size_t cells = space_.fine.cells(), count = space_.around.count();
+    std::vector<float> radiance(space_.fine.set.count() * cells);
+    const std::uint32_t* of_cell = background_.of_cell.data();
     for_each_chunk(space_.fine.set.count(), 1, control_, {}, [&](std::size_t d, std::size_t) {
-      for (std::size_t c = 0; c < space_.fine.cells(); ++c)
-        radiance[d * space_.fine.cells() + c] = block[d * space_.around.count() + background_.of_cell[c]];
+      const float* from = block.data() + d * count;
+      float* to = radiance.data() + d * cells;
+      for (std::size_t c = 0; c < cells; ++c) to[c] = from[of_cell[c]];
     });
     return radiance;
   }
