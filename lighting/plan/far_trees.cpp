@@ -35,7 +35,7 @@ class Chooser {
       else
         high = middle - 1;
     }
-    while (low > 0 && bound(checking_, low) > most) low /= 2;
+    while (low > 0 && bound(checking_, low) > most) low -= (low + 15) / 16;
     return low;
   }
   double bound_of(std::size_t count) { return bound(checking_, count); }

@@ -1,24 +1,27 @@
-// Trees that an answer for a few selected trees can do without, and a bound on what leaving them out changes.
+// Trees that an answer for a few selected trees can do without, and a bound on what leaving them out
+// changes.
 //
-// Every change of the light on a selected element goes through a path of light that begins there and meets a
-// tree that was left out: traced backwards, a path that meets none of them is the same with and without them.
-// So paths are traced from random selected elements through the whole forest, and what a path may bring after
-// it first meets a tree that is left out is an upper limit of its change:
+// Every change of the light on a selected element goes along a path of light that begins there and meets a
+// tree that was left out: traced backwards, a path that meets none of them is the same with and without
+// them. So paths are traced from random selected elements through the whole forest. What a path with weight k
+// may bring in direction w, once it meets a tree that is left out, is an upper limit of its change,
 //
-//   in direction w with weight k:     k max(pi L_sky(w), a E0 / (1 - a))     (the most that sky or surfaces
-//   send) where such a tree hides the sun:  the sunlight that the path would have got there
+//   k max(pi L_sky(w), a E0 / (1 - a))
 //
-// with E0 the sun and sky on a face turned any way and a the largest albedo, as in plan.h. Geometry alone
-// bounds nothing of use: without what hides a tree, all trees beyond a radius fill the band of the sky below
-// their height, which in a stand of 20 m still holds 1 % of a leaf's light at 4 km. Direct sun on the
-// selected trees is treated apart, without chance: a tree whose shadow could fall on one of them, by their
-// enclosing balls and the sun's disc, stays.
+// the most that sky or surfaces send, with E0 the sun and sky on a face turned any way and a the largest
+// albedo, as in plan.h; where such a tree hides the sun from a place on the path, so is the sunlight lost.
+// Direct sun on the selected trees is treated apart, without chance: a tree whose shadow could fall on one of
+// them, by their enclosing balls and the sun's disc, stays.
 //
 // The bound is on the root mean square over the selected elements of the change of front + back irradiance,
-// relative to their mean in the band where it is largest; an upper limit that holds with about 99 in 100
-// (normal approximation over elements, and the rule of three for what no path met). The trees are chosen with
-// one half of the elements and the bound comes from the other. It is about light, not about a method's own
-// errors: fewer trees can mean finer cells and other random numbers.
+// relative to their mean, in the band where it is largest. It is an upper limit that holds about 99 times in
+// 100 (normal approximation over elements, and the rule of three for what no path met). The trees are chosen
+// with one half of the elements and the bound comes from the other. It is about light, not about a method's
+// own errors: fewer trees can mean finer cells and other random numbers.
+//
+// Geometry alone bounds nothing of use: not knowing what hides a tree, all trees beyond a radius fill the
+// band of the sky below their height, which for trees of 20 m still holds 1 % of an even sky's light on an
+// upright leaf at 2.5 km.
 #pragma once
 
 #include <cstdint>

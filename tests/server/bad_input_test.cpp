@@ -116,6 +116,16 @@ TEST_F(BadInput, ForestSpecs) {
       {"spec.terrain.slope_rad", "got 3", [](Spec& s) { s.mutable_terrain()->set_slope_rad(3); }},
       {"spec.period.size_x_m", "got 0", [](Spec& s) { s.mutable_period()->set_size_y_m(10); }},
       {"spec.plot_width_m", "nan", [](Spec& s) { s.set_plot_width_m(kNan); }},
+      {"spec.leaf_area", "unknown", [](Spec& s) { s.set_leaf_area(static_cast<v1::LeafAreaSource>(8)); }},
+      {"spec.element_area_m2", "got -1", [](Spec& s) { s.set_element_area_m2(-1); }},
+      {"spec.element_area_m2", "within 20000000", [](Spec& s) { s.set_element_area_m2(1e-9); }},
+      {"spec.rim_power", "nan", [](Spec& s) { s.set_rim_power(kNan); }},
+      {"spec.branch_share", "got 11", [](Spec& s) { s.set_branch_share(11); }},
+      {"spec.clumps.leaf_area_m2", "got -1", [](Spec& s) { s.mutable_clumps()->set_leaf_area_m2(-1); }},
+      {"spec.understorey.stems_ratio_per_5_cm", "got 1",
+       [](Spec& s) { s.mutable_understorey()->set_stems_ratio_per_5_cm(1); }},
+      {"spec.understorey.smallest_dbh_cm", "got 0",
+       [](Spec& s) { s.mutable_understorey()->set_smallest_dbh_cm(0); }},
       {"spec.planting", "100000 trees in all",
        [](Spec& s) {
          s.clear_inventory();

@@ -19,10 +19,11 @@ using test::Ran;
 using test::run;
 using test::write_file;
 
-std::string scene_with(const std::string& surroundings) {
-  return R"(
-[forest]
-name = "four trees"
+// "natural": similar trees around the plot, and everything else that makes a stand more like a real one.
+std::string scene_with(const std::string& kind) {
+  const std::string surroundings = kind == "natural" ? "similar" : kind;
+  return "[forest]\n" + std::string(kind == "natural" ? "realism = \"natural\"\nelement_area_m2 = 1\n" : "") +
+         R"(name = "four trees"
 trees = "crown"
 inventory = "four.csv"
 plot_polygon = "plot.csv"
@@ -138,7 +139,7 @@ TEST_P(ClientStand, WritesTheSameFilesAsTheCommandAtHome) {
   EXPECT_NE(content(test::scratch_dir() / (kind + ".json")).find("\"plot\""), std::string::npos);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ClientStand, ::testing::Values("periodic", "similar"),
+INSTANTIATE_TEST_SUITE_P(All, ClientStand, ::testing::Values("periodic", "natural"),
                          [](const auto& test) { return std::string(test.param); });
 
 TEST(ClientStandMistakes, AreToldBeforeTheServerIsAsked) {
