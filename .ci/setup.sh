@@ -2,7 +2,9 @@
 packages_build="cmake ninja-build ccache g++ pkg-config libopenvdb-dev libboost-dev libglm-dev libembree-dev libgrpc++-dev
   protobuf-compiler protobuf-compiler-grpc libprotobuf-dev libopenimageio-dev libtbb-dev libtomlplusplus-dev
   libcli11-dev libspdlog-dev nlohmann-json3-dev libnetcdf-dev libssl-dev libnova-dev zlib1g-dev gnuplot-nox"
-packages_test="libgtest-dev libbenchmark-dev libopenvdb-tools netcdf-bin"
+# The second line: programs that open what Sunfleck writes (a browser, GDAL, xarray); tests without them skip aloud.
+packages_test="libgtest-dev libbenchmark-dev libopenvdb-tools netcdf-bin
+  chromium gdal-bin python3-netcdf4 python3-xarray"
 
 say() { printf '\n== %s\n' "$*"; }
 

@@ -171,6 +171,7 @@ Selection read_selection(const ConfigTable& table) {
       throw_invalid(table.where("trees"), "holds what is no whole number", "numbers of trees");
     selection.trees.push_back(tree);
   }
+  selection.far_trees_share = table.number_or("far_trees_share", selection.far_trees_share, {0, 1});
   return selection;
 }
 

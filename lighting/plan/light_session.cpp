@@ -9,6 +9,7 @@
 #include "lighting/base/summaries.h"
 #include "lighting/plan/auto_method.h"
 #include "lighting/plan/kept_methods.h"
+#include "lighting/plan/near_light.h"
 #include "lighting/plan/run_method.h"
 #include "sim/base/contract.h"
 #include "sim/base/error.h"
@@ -81,6 +82,11 @@ void sign(LightMap& map, const LightScene& scene, const LightRequest& request,
   p.settings.insert(p.settings.begin(), light.begin(), light.end());
 }
 
+int threads_of(const CostOptions& cost) {
+  const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  return cost.threads > 0 ? std::min(cost.threads, cores) : cores;
+}
+
 }  // namespace
 
 LightSession::LightSession(const Forest& forest, std::shared_ptr<PreparedCache> cache)
@@ -128,9 +134,11 @@ LightMap LightSession::compute(const LightRequest& request, const CostOptions& c
                                const RunControl& control) const {
   if (request.method == Method::kWorld) return compute_world(request, cost, control);
   const Plan plan = this->plan(request);
+  if (may_leave_trees_out(scene(1), request))
+    if (auto map = near_trees_light(this->scene(threads_of(cost)), request, cost, control))
+      return *std::move(map);
   const OpticsTable optics(forest_, request.optics), seen(forest_, plan.optics);
-  const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  const LightScene scene = this->scene(cost.threads > 0 ? std::min(cost.threads, cores) : cores);
+  const LightScene scene = this->scene(threads_of(cost));
   LightMap map;
   with_threads(cost.threads, [&] {
     const auto run = [&](const LightRequest& asked) {

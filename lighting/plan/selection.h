@@ -13,6 +13,9 @@ namespace sunfleck {
 struct Selection {
   std::vector<TreeId> trees;
   std::vector<std::uint32_t> instances;
+  // Of the tolerance: what leaving far trees out may change in the light on a selected tree, see far_trees.h;
+  // [0, 1], 0: none is left out.
+  double far_trees_share = 0.05;
   bool everything() const { return trees.empty() && instances.empty(); }
 };
 

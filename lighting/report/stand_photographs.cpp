@@ -3,6 +3,7 @@
 #include <set>
 
 #include "lighting/render/photograph_file.h"
+#include "lighting/report/sun_path_picture.h"
 #include "sim/base/error.h"
 #include "sim/base/pending_file.h"
 
@@ -19,6 +20,19 @@ std::string file_name(const LightSensor& sensor, std::size_t number, std::set<st
   if (name.empty() || !taken.insert(name).second)
     name += "_" + std::to_string(number + 1), taken.insert(name);
   return "sensor_" + name + ".png";
+}
+
+// Of the year in which the period begins.
+std::vector<SunPath> paths_of(const StandStudySpec& spec) {
+  const TimeSpan& period = spec.period;
+  const int year = date_of_day(local_day(period.begin_s, period.offset_minutes)).year;
+  return sun_paths(spec.place, year, period.offset_minutes);
+}
+
+std::string title_of(const StandStudySpec& spec, std::size_t number) {
+  const std::string& name = spec.sensors[number].sensor.name;
+  return "Sensor " + (name.empty() ? std::to_string(number + 1) : name) + ", looking up; hours of UTC" +
+         (spec.period.offset_minutes == 0 ? "" : offset_text(spec.period.offset_minutes));
 }
 
 }  // namespace
@@ -53,11 +67,15 @@ std::vector<std::filesystem::path> save_photographs(const Forest& forest, const 
   std::filesystem::create_directory(folder, failure);
   if (failure) throw_cannot_write(folder, failure.message());
   const auto pictures = photographs(forest, spec, pixels, spec.sensors.size(), control);
+  const std::vector<SunPath> paths = paths_of(spec);
   std::vector<std::filesystem::path> written;
   std::set<std::string> taken;
   for (std::size_t s = 0; s < pictures.size(); ++s) {
     written.push_back(folder / file_name(spec.sensors[s].sensor, s, taken));
     save_png(pictures[s], written.back());
+    const std::filesystem::path with_paths = folder / (written.back().stem().string() + "_sun_paths.png");
+    draw_sun_paths(pictures[s], paths, title_of(spec, s), with_paths);
+    written.push_back(with_paths);
   }
   return written;
 }

@@ -13,8 +13,10 @@ namespace sunfleck {
 std::vector<HemisphericalPhotograph> photographs(const Forest& forest, const StandStudySpec& spec, int pixels,
                                                  std::size_t most, const RunControl& control);
 
-// sensor_<name>.png for all (number where a sensor has no name; letters, digits, - and _ of it are kept) in a
-// folder that is made where missing. Returns what was written. Throws Error(kInvalidInput) without sensors.
+// sensor_<name>.png for all, as they are for programs that read such photographs, and
+// sensor_<name>_sun_paths.png with the ways of the sun over them (number where a sensor has no name; letters,
+// digits, - and _ of it are kept) in a folder that is made where missing. Returns what was written. Throws
+// Error(kInvalidInput) without sensors.
 std::vector<std::filesystem::path> save_photographs(const Forest& forest, const StandStudySpec& spec,
                                                     int pixels, const std::filesystem::path& folder,
                                                     const RunControl& control);

@@ -43,7 +43,8 @@ PathTracer::PathTracer(const Forest& forest, const RayScene& rays, const OpticsT
       sky_(sky_radiance(light)),
       sun_facing_(sun_facing_factor(light)),
       any_beam_(has_beam(light)),
-      weight_(optics.band_count()) {
+      weight_(optics.band_count()),
+      sunlight_(optics.band_count()) {
   met_.reflect.resize(optics.band_count());
   met_.pass.resize(optics.band_count());
 }
@@ -60,6 +61,7 @@ PathLight PathTracer::follow(Vec3 origin_m, Vec3 direction, RayStart from, Rando
       return light;
     }
     if (hit.kind == HitKind::kGround && !hit.front) return light;  // the dark below
+    if (watch_) watch_->met(hit, direction, weight_);
     look_up(hit);
     if (any_beam_) add_sun(hit, random, light.scattered_w_m2);
     if (!any(met_.reflect) && !any(met_.pass)) return light;
@@ -105,21 +107,30 @@ void PathTracer::look_up_foliage(const RayHit& hit) {
 }
 
 // Light of the sun at the point met, given back towards where the path came from.
-void PathTracer::add_sun(const RayHit& hit, RandomStream& random, std::vector<double>& to) const {
+void PathTracer::add_sun(const RayHit& hit, RandomStream& random, std::vector<double>& to) {
   const Vec3 to_sun = cone_direction(light_.to_sun, light_.sun_half_angle_rad, random);
   const double cosine = glm::dot(hit.normal, to_sun);
   const bool this_side = cosine > 0.0;
   if (!met_.is_shoot && !any(this_side ? met_.reflect : met_.pass)) return;
   const RayStart from =
       met_.is_shoot ? RayStart{} : RayStart{hit.kind, this_side == hit.front, hit.instance, hit.local};
-  if (rays_.occluded(hit.on_original_m, to_sun, 0.0, from)) return;
   for (std::size_t b = 0; b < to.size(); ++b) {
     // Needles face everywhere alike: a quarter of the beam on each of their faces.
     const double given = met_.is_shoot
                              ? 0.25 * (met_.reflect[b] + met_.pass[b])
                              : sun_facing_ * std::abs(cosine) * (this_side ? met_.reflect[b] : met_.pass[b]);
-    to[b] += weight_[b] * given * light_.bands[b].beam_normal_w_m2;
+    sunlight_[b] = weight_[b] * given * light_.bands[b].beam_normal_w_m2;
   }
+  if (sun_is_hidden(hit, to_sun, from)) return;
+  for (std::size_t b = 0; b < to.size(); ++b) to[b] += sunlight_[b];
+}
+
+bool PathTracer::sun_is_hidden(const RayHit& hit, const Vec3& to_sun, const RayStart& from) const {
+  if (!watch_) return rays_.occluded(hit.on_original_m, to_sun, 0.0, from);
+  const RayHit by = rays_.closest_hit(hit.on_original_m, to_sun, 0.0, from);
+  if (by.kind == HitKind::kSky) return false;
+  watch_->shaded(by, sunlight_);
+  return true;
 }
 
 // On this side or through to the other, each with a chance in proportion to its brightest band; weighs the

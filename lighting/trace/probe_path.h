@@ -24,6 +24,16 @@ struct MetSurface {
   bool is_shoot = false;
 };
 
+// Told of everything that has a say in what a path brings, in the order of the path. `weight`: of what the
+// path may still bring, per band, E / (pi * radiance).
+class PathWatch {
+ public:
+  virtual ~PathWatch() = default;
+  virtual void met(const RayHit& hit, const Vec3& direction, const std::vector<double>& weight) = 0;
+  // Sunlight of `lost_w_m2` per band that the path would bring from where it is, had it not been for `by`.
+  virtual void shaded(const RayHit& by, const std::vector<double>& lost_w_m2) = 0;
+};
+
 class PathTracer {
  public:
   // All must outlive the tracer; `light` as returned by checked(). One tracer per thread.
@@ -32,12 +42,15 @@ class PathTracer {
 
   // From a point of a face into a cosine-distributed direction.
   PathLight follow(Vec3 origin_m, Vec3 direction, RayStart from, RandomStream& random);
+  // From now on; changes no path. Must outlive the paths that it watches; null: nobody.
+  void watch(PathWatch* watch) { watch_ = watch; }
 
  private:
   void add_sky(const Vec3& direction, std::vector<double>& to) const;
   void look_up(const RayHit& hit);
   void look_up_foliage(const RayHit& hit);
-  void add_sun(const RayHit& hit, RandomStream& random, std::vector<double>& to) const;
+  void add_sun(const RayHit& hit, RandomStream& random, std::vector<double>& to);
+  bool sun_is_hidden(const RayHit& hit, const Vec3& to_sun, const RayStart& from) const;
   bool survives(RandomStream& random);
   bool chooses_reflection(RandomStream& random);
   void leave(const RayHit& hit, bool reflected, RandomStream& random, Vec3& direction, RayStart& from) const;
@@ -49,8 +62,10 @@ class PathTracer {
   const SkyRadiance sky_;
   const double sun_facing_;
   bool any_beam_;
-  std::vector<double> weight_;  // of what is still to be found, per band
+  std::vector<double> weight_;    // of what is still to be found, per band
+  std::vector<double> sunlight_;  // that the path gets from where it is, per band
   MetSurface met_;
+  PathWatch* watch_ = nullptr;
 };
 
 // A beam of 1 on a plane that faces the middle of the sun's disc is 1: the disc's mean cosine to its own axis

@@ -18,9 +18,6 @@ namespace {
 LightRequest required_light(const ClientOptions& o, const SceneFile& scene) {
   if (!scene.light) throw_invalid(o.scene.string(), "has no [light] table", "say which sun, sky and bands");
   LightRequest request = *scene.light;
-  if (!request.selection.everything())
-    throw_invalid(o.scene.string(), "asks for some trees only, which the service cannot do",
-                  "leave light.trees out, or use `sunfleck light`");
   if (!o.method.empty()) request.method = method_from_string(o.method, "--method");
   return request;
 }
@@ -82,8 +79,10 @@ void fetch_light(const ClientOptions& o, Client& client, const RunControl& contr
   const SceneFile scene = required_scene_file(o);
   const LightRequest request = required_light(o, scene);
   required_scene_name(o);
-  const Forest forest = same_forest(o, scene, control);
+  const Forest whole = same_forest(o, scene, control);
   const LightMap map = client.light_map(o.scene_name, request, control);
+  // What the answer's elements are numbered by: the trees asked for.
+  const Forest forest = request.selection.everything() ? whole : selected_forest(whole, request.selection);
   if (!o.output.empty()) save_netcdf(map, forest, o.output);
   if (!o.csv.empty()) save_element_csv(map, forest, o.csv);
   if (!o.tree_csv.empty()) save_tree_csv(map, forest, o.tree_csv);
@@ -129,8 +128,9 @@ void fetch_picture(const ClientOptions& o, Client& client, const RunControl& con
   const auto files = o.exr.empty()   ? Client::Files::kPng
                      : o.png.empty() ? Client::Files::kExr
                                      : Client::Files::kExrAndPng;
-  const RemoteRender picture =
-      client.render(required_scene_name(o), required_light(o, scene), camera, files, control);
+  LightRequest light = required_light(o, scene);
+  light.selection = {};  // a picture shows all trees
+  const RemoteRender picture = client.render(required_scene_name(o), light, camera, files, control);
   if (!o.png.empty()) write_whole_file(o.png, picture.png);
   if (!o.exr.empty()) write_whole_file(o.exr, picture.exr);
   finish_progress();

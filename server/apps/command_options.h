@@ -24,6 +24,8 @@ void add_calibrate(CLI::App& app, CalibrateOptions& options);
 void add_service(CLI::App& app, ServeOptions& serve, ClientOptions& client);
 void add_bench(CLI::App& app, BenchOptions& options);
 
+// All but netcdf and csv; descriptions begin with `of`.
+void add_stand_files(CLI::App* command, StandFiles& files, const std::string& of);
 std::string known_methods();  // "reference, grid, ..."
 
 }  // namespace sunfleck

@@ -11,12 +11,7 @@ void add_client_files(CLI::App* c, ClientOptions& o) {
   c->add_option("-o,--output,--netcdf", o.output, "light, stand: everything in one file to write (.nc)");
   c->add_option("--csv", o.csv, "light: table of all elements to write (.csv); stand: folder for tables");
   c->add_option("--tree-csv", o.tree_csv, "light: table of all trees to write (.csv)");
-  c->add_option("--report", o.stand.report, "stand: one page to read in a browser (.html)");
-  c->add_option("--pictures", o.stand.pictures, "stand: folder for ground map, profile, season, scatter");
-  c->add_option("--photographs", o.stand.photographs, "stand: folder for a photograph per sensor (.png)");
-  c->add_option("--photograph-px", o.stand.photograph_px, "stand: edge of the photographs in pixels")
-      ->capture_default_str()
-      ->check(CLI::Range(8, 8192));
+  add_stand_files(c, o.stand, "stand: ");
   c->add_option("--json", o.json, "stand: all tables as they came over the wire (.json)");
   c->add_option("--png", o.png, "render: picture to write (.png)");
   c->add_option("--exr", o.exr, "render: layers to write (.exr)");

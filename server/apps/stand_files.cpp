@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "lighting/map/ground_geotiff.h"
 #include "lighting/map/stand_csv.h"
 #include "lighting/map/stand_netcdf.h"
 #include "lighting/report/stand_photographs.h"
@@ -23,11 +24,9 @@ std::optional<PlotPolygon> plot_of(const SceneFile& scene) {
 }  // namespace
 
 std::vector<Output> StandFiles::outputs() const {
-  return {{"--netcdf", netcdf, ".nc"},
-          {"--csv", csv, ""},
-          {"--report", report, ".html"},
-          {"--pictures", pictures, ""},
-          {"--photographs", photographs, ""}};
+  return {{"--netcdf", netcdf, ".nc"},        {"--csv", csv, ""},
+          {"--report", report, ".html"},      {"--pictures", pictures, ""},
+          {"--photographs", photographs, ""}, {"--geotiff", geotiff, ".tif"}};
 }
 
 bool StandFiles::any() const {
@@ -59,6 +58,7 @@ std::vector<std::filesystem::path> write_stand_files(const StandFiles& files, co
   if (!files.netcdf.empty()) save_stand_netcdf(tables, files.netcdf), add({files.netcdf});
   if (!files.csv.empty()) add(save_stand_csv(tables, files.csv));
   if (!files.pictures.empty()) add(save_stand_pictures(study, tables, files.pictures));
+  if (!files.geotiff.empty()) save_ground_geotiff(tables, files.epsg, files.geotiff), add({files.geotiff});
   if (!files.photographs.empty())
     add(save_photographs(forest, study.spec, files.photograph_px, files.photographs, control));
   if (!files.report.empty())

@@ -12,8 +12,9 @@
 namespace sunfleck {
 
 struct StandFiles {
-  std::filesystem::path netcdf, csv, report, pictures, photographs;  // empty: not asked for
+  std::filesystem::path netcdf, csv, report, pictures, photographs, geotiff;  // empty: not asked for
   int photograph_px = 600;
+  int epsg = 0;  // of the inventory's plane coordinates, for the GeoTIFF; 0: not known
 
   std::vector<Output> outputs() const;
   bool any() const;

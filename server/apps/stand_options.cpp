@@ -5,6 +5,23 @@
 
 namespace sunfleck {
 
+void add_stand_files(CLI::App* c, StandFiles& files, const std::string& of) {
+  c->add_option("--report", files.report, of + "one page to read in a browser (.html)");
+  c->add_option("--pictures", files.pictures, of + "folder for ground map, profile, season, scatter (.png)");
+  CLI::Option* geotiff =
+      c->add_option("--geotiff", files.geotiff, of + "ground map for geographic information systems (.tif)");
+  c->add_option("--epsg", files.epsg,
+                of + "number of the projection that the inventory's coordinates are of, for --geotiff")
+      ->check(CLI::Range(1024, 32766))
+      ->needs(geotiff);
+  c->add_option(
+      "--photographs", files.photographs,
+      of + "folder for a hemispherical photograph per sensor, plain and with the sun's paths (.png)");
+  c->add_option("--photograph-px", files.photograph_px, of + "edge of the photographs in pixels")
+      ->capture_default_str()
+      ->check(CLI::Range(8, 8192));
+}
+
 void add_stand(CLI::App& app, StandOptions& o) {
   CLI::App* c = app.add_subcommand(
       "stand", "Light in a stand over a season: trees, ground, layers, sensors; tables, maps and a report");
@@ -13,17 +30,12 @@ void add_stand(CLI::App& app, StandOptions& o) {
   c->add_option("--forest", o.forest, "Forest (.vdb) to use instead of growing the scene's");
   c->add_option("--netcdf", o.files.netcdf, "Everything in one file for xarray and R (.nc)");
   c->add_option("--csv", o.files.csv, "Folder for trees.csv, sensors.csv, ground.csv, layers.csv, plot.csv");
-  c->add_option("--report", o.files.report, "One page to read in a browser (.html)");
-  c->add_option("--pictures", o.files.pictures, "Folder for ground map, profile, season, scatter (.png)");
-  c->add_option("--photographs", o.files.photographs,
-                "Folder for a hemispherical photograph per sensor (.png)");
-  c->add_option("--photograph-px", o.files.photograph_px, "Edge of the photographs in pixels")
-      ->capture_default_str()
-      ->check(CLI::Range(8, 8192));
+  add_stand_files(c, o.files, "");
   c->add_option("--configs", o.configs, "Folder with species/ and grammars/");
   c->footer(
       "Examples:\n  sunfleck stand configs/examples/stand.toml --report report.html\n"
       "  sunfleck stand stand.toml --netcdf light.nc --csv tables --photographs photographs\n"
+      "  sunfleck stand stand.toml --geotiff ground.tif --epsg 32632\n"
       "  sunfleck stand stand.toml --forest stand.vdb --netcdf light.nc");
 }
 

@@ -23,18 +23,8 @@ StandStudy Client::stand_light(const std::string& scene, const StandStudySpec& s
   const v1::StreamStandLightRequest message = message_of(scene, spec);
   WatchedCall call(state_->options, control);
   ArrayAssembler arrays;
-  v1::StandLightSummary summary;
-  bool complete = false;
-  read_all(call, *state_->stand_light->StreamStandLight(&call.context(), message),
-           [&](v1::StreamStandLightResponse& part) {
-             if (part.has_progress()) report(part.progress(), control);
-             if (part.has_array()) arrays.begin(part.array());
-             if (part.has_chunk()) arrays.add(part.chunk());
-             if (!part.has_summary()) return;
-             summary = std::move(*part.mutable_summary());
-             complete = true;
-           });
-  if (!complete) throw_incomplete();
+  const v1::StandLightSummary summary =
+      read_arrays(call, *state_->stand_light->StreamStandLight(&call.context(), message), control, arrays);
   return stand_study_from_messages(arrays.finish(), summary, spec);
 }
 

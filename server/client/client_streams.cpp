@@ -52,18 +52,8 @@ LightMap Client::light_map(const std::string& scene, const LightRequest& request
   message.set_scene(scene);
   fill_message(request, *message.mutable_light());
   ArrayAssembler arrays;
-  v1::LightMapSummary summary;
-  bool complete = false;
-  read_all(call, *state_->light->StreamLightMap(&call.context(), message),
-           [&](v1::StreamLightMapResponse& part) {
-             if (part.has_progress()) report(part.progress(), control);
-             if (part.has_array()) arrays.begin(part.array());
-             if (part.has_chunk()) arrays.add(part.chunk());
-             if (!part.has_summary()) return;
-             summary = std::move(*part.mutable_summary());
-             complete = true;
-           });
-  if (!complete) throw_incomplete();
+  const v1::LightMapSummary summary =
+      read_arrays(call, *state_->light->StreamLightMap(&call.context(), message), control, arrays);
   return light_map_from_messages(arrays.finish(), summary);
 }
 

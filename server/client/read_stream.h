@@ -3,7 +3,12 @@
 
 #include <grpcpp/grpcpp.h>
 
+#include <optional>
+#include <type_traits>
+#include <utility>
+
 #include "server/client/client_state.h"
+#include "server/convert/array_message.h"
 #include "sim/base/error.h"
 
 namespace sunfleck {
@@ -29,6 +34,21 @@ void read_all(WatchedCall& call, grpc::ClientReader<Response>& reader, const Use
 
 [[noreturn]] inline void throw_incomplete() {
   throw Error(ErrorKind::kInputOutput, "the answer", "ended without its summary", "ask again");
+}
+
+// A stream of progress, arrays and one summary, which is returned.
+template <class Response>
+auto read_arrays(WatchedCall& call, grpc::ClientReader<Response>& reader, const RunControl& control,
+                 ArrayAssembler& arrays) {
+  std::optional<std::remove_cvref_t<decltype(std::declval<Response>().summary())>> summary;
+  read_all(call, reader, [&](Response& part) {
+    if (part.has_progress()) report(part.progress(), control);
+    if (part.has_array()) arrays.begin(part.array());
+    if (part.has_chunk()) arrays.add(part.chunk());
+    if (part.has_summary()) summary = std::move(*part.mutable_summary());
+  });
+  if (!summary) throw_incomplete();
+  return *std::move(summary);
 }
 
 }  // namespace sunfleck

@@ -2,9 +2,11 @@
 // between the fields when it grows the forest.
 #include "server/convert/forest_spec_message.h"
 
+#include <algorithm>
 #include <map>
 #include <set>
 
+#include "server/convert/crowns_message.h"
 #include "server/convert/surroundings_message.h"
 #include "sim/base/error.h"
 #include "sunfleck/v1/scene.pb.h"
@@ -176,16 +178,6 @@ void read_plot(const v1::ForestSpec& message, const std::string& field, Violatio
   violations.number(field + ".period.size_y_m", period.size_y_m(), 0.01, kFarthest_m);
 }
 
-void read_crowns(const v1::ForestSpec& message, const std::string& field, Violations& violations,
-                 ForestSpec& spec) {
-  if (message.has_leaf_area_factor()) spec.leaf_area_factor = message.leaf_area_factor();
-  spec.clumps.radius_m = message.clumps().radius_m();
-  if (message.clumps().has_elements()) spec.clumps.elements = message.clumps().elements();
-  violations.number(field + ".leaf_area_factor", spec.leaf_area_factor, 1e-3, 1e3);
-  violations.number(field + ".clumps.radius_m", spec.clumps.radius_m, 0, 100);
-  violations.integer(field + ".clumps.elements", spec.clumps.elements, 1, 1'000'000);
-}
-
 // How trees become geometry.
 void read_detail(const v1::ForestSpec& message, const std::string& field, std::uint64_t trees,
                  const Limits& limits, Violations& violations, ForestSpec& spec) {
@@ -201,43 +193,12 @@ void read_detail(const v1::ForestSpec& message, const std::string& field, std::u
   violations.integer(field + ".variants", spec.variants, 1, 64);
   read_crowns(message, field, violations, spec);
   if (spec.trees != TreeSource::kCrown || !in_range) return;
-  const std::uint64_t elements = trees * static_cast<std::uint64_t>(spec.elements_per_tree);
-  if (elements > limits.elements_per_scene) {
-    violations.add(field + ".elements_per_tree", "must keep trees times elements within " +
-                                                     std::to_string(limits.elements_per_scene) + ", got " +
-                                                     std::to_string(elements));
-  }
-}
-
-void fill_tree(const InventoryTree& tree, v1::InventoryTree& message) {
-  message.set_id_tree(tree.id.value);
-  message.set_species(tree.species);
-  message.set_x_m(tree.x_m);
-  message.set_y_m(tree.y_m);
-  message.set_dbh_cm(tree.dbh_cm);
-  if (tree.height_m) message.set_height_m(*tree.height_m);
-  if (tree.crown_base_m) message.set_crown_base_m(*tree.crown_base_m);
-  if (tree.widest_m) message.set_widest_m(*tree.widest_m);
-  if (tree.radius_n_m) message.set_radius_n_m(*tree.radius_n_m);
-  if (tree.radius_s_m) message.set_radius_s_m(*tree.radius_s_m);
-  if (tree.radius_e_m) message.set_radius_e_m(*tree.radius_e_m);
-  if (tree.radius_w_m) message.set_radius_w_m(*tree.radius_w_m);
-  if (tree.leaf_area_density_per_m) message.set_leaf_area_density_per_m(*tree.leaf_area_density_per_m);
-}
-
-void fill_rule(const PlantingRule& rule, v1::PlantingRule& message) {
-  message.set_species(rule.species);
-  message.set_count(rule.count);
-  message.set_spacing_m(rule.spacing_m);
-  message.set_dbh_mean_cm(rule.dbh_mean_cm);
-  message.set_dbh_sd_cm(rule.dbh_sd_cm);
-  switch (rule.pattern) {
-    case PlantingPattern::kPoissonDisc:
-      return message.set_pattern(v1::PLANTING_PATTERN_POISSON_DISC);
-    case PlantingPattern::kRows:
-      return message.set_pattern(v1::PLANTING_PATTERN_ROWS);
-    case PlantingPattern::kRandom:
-      return message.set_pattern(v1::PLANTING_PATTERN_RANDOM);
+  const double elements = predicted_crown_elements(spec, trees);
+  if (elements > static_cast<double>(limits.elements_per_scene)) {
+    const char* key = spec.element_area_m2 > 0 ? ".element_area_m2" : ".elements_per_tree";
+    violations.add(field + key, "must keep trees times elements within " +
+                                    std::to_string(limits.elements_per_scene) + ", got " +
+                                    std::to_string(static_cast<std::uint64_t>(std::min(elements, 1e18))));
   }
 }
 
@@ -256,32 +217,6 @@ ForestSpec forest_spec_from_message(const v1::ForestSpec& message, const std::st
   read_plot(message, field, violations, spec);
   read_surroundings(message, field, trees, limits, violations, spec);
   return spec;
-}
-
-void fill_message(const ForestSpec& spec, v1::ForestSpec& message) {
-  message.set_name(spec.name);
-  message.set_seed(spec.seed);
-  message.set_trees(spec.trees == TreeSource::kCrown ? v1::TREE_SOURCE_CROWN : v1::TREE_SOURCE_LSYSTEM);
-  for (const InventoryTree& tree : spec.inventory) fill_tree(tree, *message.add_inventory());
-  for (const PlantingRule& rule : spec.planting) fill_rule(rule, *message.add_planting());
-  message.set_plot_width_m(spec.plot_width_m);
-  message.set_plot_depth_m(spec.plot_depth_m);
-  message.set_elements_per_tree(spec.elements_per_tree);
-  message.set_detail(spec.detail);
-  message.set_size_classes(spec.size_classes);
-  message.set_variants(spec.variants);
-  message.set_leaf_area_factor(spec.leaf_area_factor);
-  message.mutable_clumps()->set_radius_m(spec.clumps.radius_m);
-  message.mutable_clumps()->set_elements(spec.clumps.elements);
-  fill_surroundings(spec, message);
-  message.mutable_terrain()->set_elevation_m(spec.terrain.elevation_m);
-  message.mutable_terrain()->set_slope_rad(spec.terrain.slope_rad);
-  message.mutable_terrain()->set_aspect_rad(spec.terrain.aspect_rad);
-  if (!spec.period) return;
-  message.mutable_period()->set_origin_x_m(spec.period->origin_m.x);
-  message.mutable_period()->set_origin_y_m(spec.period->origin_m.y);
-  message.mutable_period()->set_size_x_m(spec.period->size_m.x);
-  message.mutable_period()->set_size_y_m(spec.period->size_m.y);
 }
 
 }  // namespace sunfleck

@@ -55,7 +55,7 @@ void check_query_size(const v1::QueryLightRequest& request, const Limits& limits
 }
 
 void check_query_places(const v1::QueryLightRequest& request, const Forest& forest, Violations& violations) {
-  const std::uint64_t elements = ForestIndex(forest).element_count();
+  const std::uint64_t elements = ForestIndex(forest).element_count();  // of the trees the light is for
   for (int i = 0; i < request.element_ranges_size(); ++i) {
     const v1::ElementRange& range = request.element_ranges(i);
     if (range.first() <= elements && range.count() <= elements - range.first()) continue;

@@ -1,5 +1,7 @@
 // Light requests to the wire, and their identity.
+#include "server/convert/light_selection_message.h"
 #include "server/convert/light_spec_message.h"
+#include "server/convert/method_options.h"
 #include "sim/base/sha256.h"
 #include "sunfleck/v1/light.pb.h"
 
@@ -52,56 +54,6 @@ void fill_bands(const LightRequest& request, v1::LightSpec& message) {
   }
 }
 
-void fill_reference(const ReferenceOptions& options, v1::ReferenceOptions& message) {
-  message.set_seed(options.seed);
-  message.set_rays_per_face(options.rays_per_face);
-  message.set_sun_rays_per_element(options.sun_rays_per_element);
-  message.set_target_relative_error(options.target_relative_error);
-  message.set_max_rays_per_face(options.max_rays_per_face);
-  message.set_convergence(options.convergence);
-  message.set_max_iterations(options.max_iterations);
-  message.set_ground_cell_m(options.ground_cell_m);
-  message.set_ground(options.ground);
-}
-
-v1::AutoMeasure message_measure(AutoMeasure measure) {
-  switch (measure) {
-    case AutoMeasure::kElementRms:
-      return v1::AUTO_MEASURE_ELEMENT_RMS;
-    case AutoMeasure::kBias:
-      return v1::AUTO_MEASURE_BIAS;
-    case AutoMeasure::kTreeRms:
-      return v1::AUTO_MEASURE_TREE_RMS;
-    case AutoMeasure::kTreeAbsorbedRms:
-      return v1::AUTO_MEASURE_TREE_ABSORBED_RMS;
-    case AutoMeasure::kLayerRms:
-      return v1::AUTO_MEASURE_LAYER_RMS;
-  }
-  return v1::AUTO_MEASURE_UNSPECIFIED;
-}
-
-void fill_auto(const AutoOptions& options, v1::AutoOptions& message) {
-  if (options.tolerance) message.set_tolerance(*options.tolerance);
-  if (options.time_s) message.set_time_s(*options.time_s);
-  message.set_measure(message_measure(options.measure));
-  message.set_layer_m(options.layer_m);
-  message.set_layers(options.layers);
-}
-
-void fill_grid(const GridOptions& options, v1::GridOptions& message) {
-  message.set_directions(options.directions);
-  message.set_cell_m(options.cell_m);
-  message.set_convergence(options.convergence);
-  message.set_max_iterations(options.max_iterations);
-}
-
-void fill_probes(const ProbePlan& plan, v1::ProbeOptions& message) {
-  message.set_count(plan.count);
-  message.set_paths_per_face(plan.paths_per_face);
-  message.set_sun_rays(plan.sun_rays);
-  message.set_seed(plan.seed);
-}
-
 }  // namespace
 
 v1::SkyModel message_sky(SkyModel sky) {
@@ -137,14 +89,8 @@ void fill_message(const LightRequest& request, v1::LightSpec& message) {
   message.set_sky(message_sky(request.light.sky));
   message.set_sky_clearness(request.light.sky_clearness);
   message.set_sky_brightness(request.light.sky_brightness);
-  fill_reference(request.reference, *message.mutable_reference());
-  message.mutable_spp()->set_sample_directions(request.spp.sample_directions);
-  message.mutable_spp()->set_map_resolution(request.spp.map_resolution);
-  message.mutable_spp()->set_grid_resolution(request.spp.grid_resolution);
-  message.mutable_envelope()->set_cell_m(request.envelope.cell_m);
-  fill_grid(request.grid, *message.mutable_grid());
-  fill_auto(request.automatic, *message.mutable_auto_());
-  if (request.probes) fill_probes(*request.probes, *message.mutable_probes());
+  fill_method_options(request, message);
+  fill_selection(request.selection, message);
   message.set_skip(request.skip == Skipping::kNever ? v1::SKIPPING_NEVER : v1::SKIPPING_AUTO);
 }
 

@@ -1,9 +1,12 @@
 // Head comment in light_spec_message.h.
 #include "server/convert/light_spec_message.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
+#include "server/convert/light_selection_message.h"
+#include "server/convert/method_options.h"
 #include "sunfleck/v1/light.pb.h"
 
 namespace sunfleck {
@@ -151,106 +154,6 @@ void read_sky(const v1::LightSpec& message, const std::string& field, Violations
   violations.number(field + ".sky_brightness", light.sky_brightness, 0, 1);
 }
 
-void read_reference(const v1::ReferenceOptions& message, const std::string& field, Violations& violations,
-                    ReferenceOptions& options) {
-  if (message.has_seed()) options.seed = message.seed();
-  if (message.has_rays_per_face()) options.rays_per_face = message.rays_per_face();
-  if (message.has_sun_rays_per_element()) options.sun_rays_per_element = message.sun_rays_per_element();
-  if (message.has_target_relative_error()) options.target_relative_error = message.target_relative_error();
-  if (message.has_max_rays_per_face()) options.max_rays_per_face = message.max_rays_per_face();
-  if (message.has_convergence()) options.convergence = message.convergence();
-  if (message.has_max_iterations()) options.max_iterations = message.max_iterations();
-  if (message.has_ground_cell_m()) options.ground_cell_m = message.ground_cell_m();
-  if (message.has_ground()) options.ground = message.ground();
-  violations.integer(field + ".rays_per_face", options.rays_per_face, 1, 65536);
-  violations.integer(field + ".sun_rays_per_element", options.sun_rays_per_element, 1, 65536);
-  violations.number(field + ".target_relative_error", options.target_relative_error, 0, 10);
-  violations.integer(field + ".max_rays_per_face", options.max_rays_per_face, 1, 65536);
-  violations.above(field + ".convergence", options.convergence, 0, 1);
-  violations.integer(field + ".max_iterations", options.max_iterations, 1, 100'000);
-  violations.number(field + ".ground_cell_m", options.ground_cell_m, 0, 1e6);
-}
-
-void read_closed_forms(const v1::LightSpec& message, const std::string& field, Violations& violations,
-                       LightRequest& request) {
-  SppOptions& spp = request.spp;
-  if (message.spp().has_sample_directions()) spp.sample_directions = message.spp().sample_directions();
-  if (message.spp().has_map_resolution()) spp.map_resolution = message.spp().map_resolution();
-  if (message.spp().has_grid_resolution()) spp.grid_resolution = message.spp().grid_resolution();
-  if (spp.sample_directions != 16 && spp.sample_directions != 22) {
-    violations.add(field + ".spp.sample_directions",
-                   "must be 16 or 22, got " + std::to_string(spp.sample_directions));
-  }
-  violations.integer(field + ".spp.map_resolution", spp.map_resolution, 8, 1024);
-  violations.integer(field + ".spp.grid_resolution", spp.grid_resolution, 2, 64);
-  if (message.envelope().has_cell_m()) request.envelope.cell_m = message.envelope().cell_m();
-  violations.number(field + ".envelope.cell_m", request.envelope.cell_m, 0, 1e6);
-}
-
-void read_grid(const v1::GridOptions& message, const std::string& field, Violations& violations,
-               GridOptions& options) {
-  if (message.has_directions()) options.directions = message.directions();
-  if (message.has_cell_m()) options.cell_m = message.cell_m();
-  if (message.has_convergence()) options.convergence = message.convergence();
-  if (message.has_max_iterations()) options.max_iterations = message.max_iterations();
-  if (options.directions != 8 && options.directions != 14 && options.directions != 26)
-    violations.add(field + ".directions", "must be 8, 14 or 26, got " + std::to_string(options.directions));
-  violations.number(field + ".cell_m", options.cell_m, 0, 1e6);
-  violations.above(field + ".convergence", options.convergence, 0, 0.5);
-  violations.integer(field + ".max_iterations", options.max_iterations, 1, 10'000);
-}
-
-AutoMeasure measure_from_message(v1::AutoMeasure measure, const std::string& field, Violations& violations) {
-  switch (measure) {
-    case v1::AUTO_MEASURE_UNSPECIFIED:
-    case v1::AUTO_MEASURE_ELEMENT_RMS:
-      return AutoMeasure::kElementRms;
-    case v1::AUTO_MEASURE_BIAS:
-      return AutoMeasure::kBias;
-    case v1::AUTO_MEASURE_TREE_RMS:
-      return AutoMeasure::kTreeRms;
-    case v1::AUTO_MEASURE_TREE_ABSORBED_RMS:
-      return AutoMeasure::kTreeAbsorbedRms;
-    case v1::AUTO_MEASURE_LAYER_RMS:
-      return AutoMeasure::kLayerRms;
-    default:
-      break;
-  }
-  violations.add(field, "unknown measure " + std::to_string(measure));
-  return AutoMeasure::kElementRms;
-}
-
-void read_auto(const v1::AutoOptions& message, const std::string& field, Violations& violations,
-               AutoOptions& options) {
-  options.measure = measure_from_message(message.measure(), field + ".measure", violations);
-  if (message.has_tolerance()) {
-    violations.above(field + ".tolerance", message.tolerance(), 0, 1);
-    options.tolerance = message.tolerance();
-  }
-  if (message.has_time_s()) {
-    violations.above(field + ".time_s", message.time_s(), 0, 1e7);
-    options.time_s = message.time_s();
-  }
-  if (message.has_tolerance() && message.has_time_s())
-    violations.add(field + ".time_s", "must not be given together with tolerance");
-  if (message.has_layer_m()) options.layer_m = message.layer_m();
-  if (message.has_layers()) options.layers = message.layers();
-  violations.above(field + ".layer_m", options.layer_m, 0, 1e6);
-  violations.integer(field + ".layers", options.layers, 0, 10'000);
-}
-
-void read_probes(const v1::ProbeOptions& message, const std::string& field, Violations& violations,
-                 std::optional<ProbePlan>& probes) {
-  ProbePlan& plan = probes.emplace();
-  if (message.has_count()) plan.count = message.count();
-  if (message.has_paths_per_face()) plan.paths_per_face = message.paths_per_face();
-  if (message.has_sun_rays()) plan.sun_rays = message.sun_rays();
-  if (message.has_seed()) plan.seed = message.seed();
-  violations.integer(field + ".count", plan.count, 16, 1'000'000);
-  violations.integer(field + ".paths_per_face", plan.paths_per_face, 2, 65536);
-  violations.integer(field + ".sun_rays", plan.sun_rays, 2, 65536);
-}
-
 Skipping skipping_from_message(v1::Skipping skip, const std::string& field, Violations& violations) {
   if (skip == v1::SKIPPING_NEVER) return Skipping::kNever;
   if (skip != v1::SKIPPING_UNSPECIFIED && skip != v1::SKIPPING_AUTO)
@@ -283,12 +186,10 @@ LightRequest light_request_from_message(const v1::LightSpec& message, const std:
   read_bands(message, field, limits, violations, request);
   read_sun(message, field, violations, request.light);
   read_sky(message, field, violations, request.light);
-  read_reference(message.reference(), field + ".reference", violations, request.reference);
+  read_method_options(message, field, violations, request);
   request.reference.memory_limit_bytes = limits.request_memory_bytes;
-  read_closed_forms(message, field, violations, request);
-  read_grid(message.grid(), field + ".grid", violations, request.grid);
-  read_auto(message.auto_(), field + ".auto", violations, request.automatic);
-  if (message.has_probes()) read_probes(message.probes(), field + ".probes", violations, request.probes);
+  request.links.memory_limit_bytes = std::min(request.links.memory_limit_bytes, limits.request_memory_bytes);
+  read_selection(message, field, limits, violations, request.selection);
   request.skip = skipping_from_message(message.skip(), field + ".skip", violations);
   return request;
 }

@@ -3,15 +3,23 @@
 
 #include "server/convert/light_map_message.h"
 #include "server/convert/light_query.h"
+#include "server/convert/light_selection_message.h"
 #include "server/convert/light_spec_message.h"
-#include "server/handlers/array_source.h"
-#include "server/handlers/stream_call.h"
+#include "server/handlers/array_stream.h"
 #include "server/handlers/unary_call.h"
 
 namespace sunfleck {
 namespace {
 
 using LightMapCall = StreamCall<v1::StreamLightMapResponse>;
+
+// The trees the answer is for; refuses those that the scene does not have.
+Forest chosen_of(const Forest& forest, const Selection& selection) {
+  Violations violations;
+  check_selection(selection, forest, "light", violations);
+  violations.refuse_if_any();
+  return selected_forest(forest, selection);
+}
 
 // What is sent before the computation begins.
 v1::StreamLightMapResponse header_of(const StoredScene& scene, const LightRequest& request) {
@@ -22,29 +30,21 @@ v1::StreamLightMapResponse header_of(const StoredScene& scene, const LightReques
   for (const std::string& band : request.optics.bands) header.add_bands(band);
   header.set_element_count(scene.elements);
   header.set_tree_count(scene.forest.instances.size());
+  if (request.selection.everything()) return message;
+  const Forest chosen = chosen_of(scene.forest, request.selection);
+  header.set_element_count(ForestIndex(chosen).element_count());
+  header.set_tree_count(chosen.instances.size());
   return message;
 }
 
-// The arrays, then the summary, then nothing.
 LightMapCall::Next arrays_then_summary(const LightAnswer& answer) {
   auto arrays = std::make_shared<const LightMapArrays>(answer.map);
-  return [answer, arrays, source = ArraySource(arrays->views()),
-          summary_sent = false](v1::StreamLightMapResponse& message) mutable {
-    switch (source.next()) {
-      case ArraySource::Part::kHeader:
-        source.fill(*message.mutable_array());
-        return true;
-      case ArraySource::Part::kChunk:
-        source.fill(*message.mutable_chunk());
-        return true;
-      case ArraySource::Part::kEnd:
-        break;
-    }
-    if (std::exchange(summary_sent, true)) return false;
-    fill_summary(*answer.map, *arrays, *message.mutable_summary());
-    message.mutable_summary()->set_from_cache(answer.from_cache);
-    return true;
-  };
+  return arrays_then<v1::StreamLightMapResponse>(
+      arrays, arrays->views(), &v1::StreamLightMapResponse::mutable_array,
+      [answer, arrays](v1::StreamLightMapResponse& message) {
+        fill_summary(*answer.map, *arrays, *message.mutable_summary());
+        message.mutable_summary()->set_from_cache(answer.from_cache);
+      });
 }
 
 }  // namespace
@@ -59,7 +59,10 @@ grpc::ServerUnaryReactor* LightHandlers::QueryLight(grpc::CallbackServerContext*
     check_query_size(*request, state_.limits, violations);
     violations.refuse_if_any();
     const ScenePtr scene = state_.scenes.find(request->scene());
-    check_query_places(*request, scene->forest, violations);
+    if (light.selection.everything())
+      check_query_places(*request, scene->forest, violations);
+    else
+      check_query_places(*request, chosen_of(scene->forest, light.selection), violations);
     violations.refuse_if_any();
     fill_answer(*request, *light_map_of(state_, *scene, light, control).map, *response);
   });

@@ -4,9 +4,9 @@
 #include "server/convert/camera_message.h"
 #include "server/convert/image_message.h"
 #include "server/convert/light_map_message.h"
+#include "server/convert/light_selection_message.h"
 #include "server/convert/light_spec_message.h"
-#include "server/handlers/array_source.h"
-#include "server/handlers/stream_call.h"
+#include "server/handlers/array_stream.h"
 #include "sim/base/version.h"
 
 namespace sunfleck {
@@ -24,6 +24,7 @@ RenderTask checked_task(const v1::StreamRenderRequest& request, const Limits& li
   Violations violations;
   RenderTask task;
   task.light = light_request_from_message(request.light(), "light", limits, violations);
+  refuse_selection(task.light.selection, "light", violations);
   task.camera = camera_from_message(request.camera(), "camera", limits, violations);
   task.formats = formats_from_message(request, violations);
   violations.refuse_if_any();
@@ -62,27 +63,15 @@ v1::RenderSummary summary_of(const RenderTask& task, const LightMap& map, const 
   return summary;
 }
 
-// The files, then the summary, then nothing.
 RenderCall::Next files_then_summary(std::vector<ImageFile> encoded, v1::RenderSummary summary) {
   auto files = std::make_shared<const std::vector<ImageFile>>(std::move(encoded));
   std::vector<ArrayView> views;
   for (const ImageFile& file : *files) views.push_back(view_of(file));
-  return [files, summary = std::move(summary), source = ArraySource(std::move(views)),
-          summary_sent = false](v1::StreamRenderResponse& message) mutable {
-    switch (source.next()) {
-      case ArraySource::Part::kHeader:
-        source.fill(*message.mutable_file());
-        return true;
-      case ArraySource::Part::kChunk:
-        source.fill(*message.mutable_chunk());
-        return true;
-      case ArraySource::Part::kEnd:
-        break;
-    }
-    if (std::exchange(summary_sent, true)) return false;
-    *message.mutable_summary() = std::move(summary);
-    return true;
-  };
+  return arrays_then<v1::StreamRenderResponse>(
+      files, std::move(views), &v1::StreamRenderResponse::mutable_file,
+      [summary = std::move(summary)](v1::StreamRenderResponse& message) {
+        *message.mutable_summary() = summary;
+      });
 }
 
 RenderCall::Next render_scene(ServerState& state, const v1::StreamRenderRequest& request,

@@ -3,8 +3,7 @@
 
 #include "server/convert/stand_answer.h"
 #include "server/convert/stand_request.h"
-#include "server/handlers/array_source.h"
-#include "server/handlers/stream_call.h"
+#include "server/handlers/array_stream.h"
 #include "server/handlers/unary_call.h"
 
 namespace sunfleck {
@@ -51,26 +50,12 @@ StandStudy study_of(const StoredScene& scene, const StandStudySpec& spec, const 
   }
 }
 
-// The arrays, then the summary, then nothing.
 StandLightCall::Next arrays_then_summary(StandStudy study, const Forest& forest) {
   auto arrays =
       std::make_shared<const StandArrays>(std::make_shared<const StandStudy>(std::move(study)), &forest);
-  return [arrays, source = ArraySource(arrays->views()),
-          summary_sent = false](v1::StreamStandLightResponse& message) mutable {
-    switch (source.next()) {
-      case ArraySource::Part::kHeader:
-        source.fill(*message.mutable_array());
-        return true;
-      case ArraySource::Part::kChunk:
-        source.fill(*message.mutable_chunk());
-        return true;
-      case ArraySource::Part::kEnd:
-        break;
-    }
-    if (std::exchange(summary_sent, true)) return false;
-    fill_summary(*arrays, *message.mutable_summary());
-    return true;
-  };
+  return arrays_then<v1::StreamStandLightResponse>(
+      arrays, arrays->views(), &v1::StreamStandLightResponse::mutable_array,
+      [arrays](v1::StreamStandLightResponse& message) { fill_summary(*arrays, *message.mutable_summary()); });
 }
 
 }  // namespace

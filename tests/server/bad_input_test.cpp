@@ -116,6 +116,16 @@ TEST_F(BadInput, ForestSpecs) {
       {"spec.terrain.slope_rad", "got 3", [](Spec& s) { s.mutable_terrain()->set_slope_rad(3); }},
       {"spec.period.size_x_m", "got 0", [](Spec& s) { s.mutable_period()->set_size_y_m(10); }},
       {"spec.plot_width_m", "nan", [](Spec& s) { s.set_plot_width_m(kNan); }},
+      {"spec.leaf_area", "unknown", [](Spec& s) { s.set_leaf_area(static_cast<v1::LeafAreaSource>(8)); }},
+      {"spec.element_area_m2", "got -1", [](Spec& s) { s.set_element_area_m2(-1); }},
+      {"spec.element_area_m2", "within 20000000", [](Spec& s) { s.set_element_area_m2(1e-9); }},
+      {"spec.rim_power", "nan", [](Spec& s) { s.set_rim_power(kNan); }},
+      {"spec.branch_share", "got 11", [](Spec& s) { s.set_branch_share(11); }},
+      {"spec.clumps.leaf_area_m2", "got -1", [](Spec& s) { s.mutable_clumps()->set_leaf_area_m2(-1); }},
+      {"spec.understorey.stems_ratio_per_5_cm", "got 1",
+       [](Spec& s) { s.mutable_understorey()->set_stems_ratio_per_5_cm(1); }},
+      {"spec.understorey.smallest_dbh_cm", "got 0",
+       [](Spec& s) { s.mutable_understorey()->set_smallest_dbh_cm(0); }},
       {"spec.planting", "100000 trees in all",
        [](Spec& s) {
          s.clear_inventory();
@@ -200,7 +210,7 @@ TEST_F(BadInput, LightSpecs) {
          s.mutable_auto_()->set_time_s(1);
          s.mutable_auto_()->set_tolerance(0.1);
        }},
-      {"light.auto.measure", "unknown measure",
+      {"light.auto.measure", "unknown value 99",
        [](Spec& s) { s.mutable_auto_()->set_measure(static_cast<v1::AutoMeasure>(99)); }},
       {"light.auto.layer_m", "got 0", [](Spec& s) { s.mutable_auto_()->set_layer_m(0); }},
       {"light.auto.layers", "got -1", [](Spec& s) { s.mutable_auto_()->set_layers(-1); }},
@@ -209,6 +219,33 @@ TEST_F(BadInput, LightSpecs) {
       {"light.probes.sun_rays", "got 1", [](Spec& s) { s.mutable_probes()->set_sun_rays(1); }},
       {"light.skip", "unknown", [](Spec& s) { s.set_skip(static_cast<v1::Skipping>(7)); }},
       {"light.envelope.cell_m", "got -1", [](Spec& s) { s.mutable_envelope()->set_cell_m(-1); }},
+      {"light.spp.marched.cell_m", "nan",
+       [](Spec& s) { s.mutable_spp()->mutable_marched()->set_cell_m(kNan); }},
+      {"light.spp.marched.phase", "unknown",
+       [](Spec& s) {
+         s.mutable_spp()->mutable_marched()->set_phase(static_cast<v1::SppMarchedOptions::Phase>(9));
+       }},
+      {"light.envelope_full.directions", "8, 14, 26 or 50, got 9",
+       [](Spec& s) { s.mutable_envelope_full()->set_directions(9); }},
+      {"light.envelope_full.bounces", "unknown",
+       [](Spec& s) {
+         s.mutable_envelope_full()->set_bounces(static_cast<v1::EnvelopeFullOptions::Bounces>(77));
+       }},
+      {"light.envelope_full.cell_m", "inf",
+       [](Spec& s) { s.mutable_envelope_full()->set_cell_m(kInfinity); }},
+      {"light.links.links_per_face", "got 4", [](Spec& s) { s.mutable_links()->set_links_per_face(4); }},
+      {"light.links.convergence", "got 0", [](Spec& s) { s.mutable_links()->set_convergence(0); }},
+      {"light.links.ground_cell_m", "got -1", [](Spec& s) { s.mutable_links()->set_ground_cell_m(-1); }},
+      {"light.links.max_iterations", "got 0", [](Spec& s) { s.mutable_links()->set_max_iterations(0); }},
+      {"light.world.directions", "8, 14 or 26", [](Spec& s) { s.mutable_world()->set_directions(7); }},
+      {"light.world.cell_m", "got -2", [](Spec& s) { s.mutable_world()->set_cell_m(-2); }},
+      {"light.far_trees_share", "got 2", [](Spec& s) { s.set_far_trees_share(2); }},
+      {"light.id_trees[1]", "no tree 99",
+       [](Spec& s) {
+         s.add_id_trees(10);
+         s.add_id_trees(99);
+       }},
+      {"light.instances[0]", "below 2, got 2", [](Spec& s) { s.add_instances(2); }},
   };
   const auto stub = v1::LightService::NewStub(channel_);
   for (const auto& [field, says, spoil] : cases) {
@@ -245,6 +282,7 @@ TEST_F(BadInput, AllViolationsAreToldAtOnce) {
   fill_message(noon(Method::kEnvelope), *request.mutable_light());
   fill_message(small_camera(), *request.mutable_camera());
   request.mutable_light()->mutable_bands(0)->set_soil_albedo(-1);
+  request.mutable_light()->add_id_trees(10);
   request.mutable_camera()->set_width_px(0);
   request.mutable_camera()->set_height_px(100'000);
   request.mutable_camera()->set_vertical_fov_deg(180);
@@ -257,6 +295,7 @@ TEST_F(BadInput, AllViolationsAreToldAtOnce) {
   EXPECT_FALSE(reader->Read(&part));
   const grpc::Status status = reader->Finish();
   expect_refused(status, "light.bands[0].soil_albedo", "[0, 1]");
+  expect_refused(status, "light.id_trees", "a picture shows all trees");
   expect_refused(status, "camera.width_px", "got 0");
   expect_refused(status, "camera.height_px", "[1, 8192]");
   expect_refused(status, "camera.vertical_fov_deg", "(0, 170]");

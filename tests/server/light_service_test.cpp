@@ -53,18 +53,47 @@ void expect_same_provenance(const Provenance& served, const Provenance& local) {
 
 class EveryMethod : public LightService, public ::testing::WithParamInterface<std::string> {};
 
-TEST_P(EveryMethod, ServedEqualsLocalBitwise) {
+void expect_served_equals_local(Client& client, const LightRequest& request) {
   const ForestSpec spec = row_of_trees(3, 400);
-  const LightRequest request = noon(method_from_string(GetParam(), "test"));
-  Client client = server_->client();
   const LightMap served = client.light_map(client.create_scene(spec).name, request);
   const LightMap local = compute_light_map(grow_forest(spec, species(), {}), request, {}, {});
-
   ASSERT_EQ(served.bands.size(), local.bands.size());
   EXPECT_TRUE(same_bytes(served.sunlit_fraction, local.sunlit_fraction));
   for (std::size_t b = 0; b < local.bands.size(); ++b) expect_same_band(served.bands[b], local.bands[b]);
   expect_same_provenance(served.provenance, local.provenance);
+  const std::size_t trees = request.selection.everything() ? 3 : request.selection.trees.size();
+  EXPECT_EQ(local.bands[0].trees.size(), trees);
   EXPECT_GT(local.bands[0].mean_irradiance_w_m2, 0.0);  // the comparison is not one of zeros
+}
+
+// The knobs of every method at other values than their defaults.
+LightRequest with_knobs(LightRequest request) {
+  request.reference.rays_per_face = 5;
+  request.reference.convergence = 1e-2;
+  request.spp.sample_directions = 16;
+  request.spp.grid_resolution = 6;
+  request.spp.marched = {SppPhase::kIsotropic, SppPaths::kSlab, 0.4};
+  request.envelope.cell_m = 0.4;
+  request.envelope_full.directions = 8;
+  request.envelope_full.bounces = EnvelopeBounces::kOnce;
+  request.envelope_full.border = EnvelopeBorder::kLevel;
+  request.grid.directions = request.world.directions = 14;
+  request.grid.cell_m = request.world.cell_m = 0.5;
+  request.grid.max_iterations = request.world.max_iterations = 3;
+  request.links.links_per_face = 16;
+  request.links.sun_rays_per_element = 4;
+  request.automatic.tolerance = 0.3;
+  request.automatic.measure = AutoMeasure::kTreeRms;
+  return request;
+}
+
+TEST_P(EveryMethod, ServedEqualsLocalBitwise) {
+  const LightRequest plain = noon(method_from_string(GetParam(), "test"));
+  LightRequest some = plain;
+  some.selection.trees = {TreeId{12}, TreeId{10}};
+  Client client = server_->client();
+  for (const LightRequest& request : {plain, with_knobs(plain), some})
+    expect_served_equals_local(client, request);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, EveryMethod, ::testing::ValuesIn(method_names()),

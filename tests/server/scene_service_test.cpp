@@ -51,6 +51,32 @@ TEST_F(SceneService, PlantingRulesGrowTheSameForest) {
             "scenes/" + content_hash(grow_forest(spec, species(), {})));
 }
 
+// Every key of the scene file that fills crowns has a say in the forest that grows.
+TEST_F(SceneService, NaturalCrownsArriveWhole) {
+  ForestSpec spec = row_of_trees(6, 100);
+  spec.leaf_area = LeafAreaSource::kAllometry;
+  spec.element_area_m2 = 0.7;
+  spec.rim_power = 1.5;
+  spec.branch_share = 0.2;
+  spec.clumps = {0.4, 20, 2.5};
+  spec.leaf_area_factor = 1.1;
+  spec.understorey = {true, 2, 7, 1.5, 2, 0.5};
+  const std::string whole = content_hash(grow_forest(spec, species(), {}));
+  EXPECT_EQ(server_->client().create_scene(spec).name, "scenes/" + whole);
+  const std::vector<void (*)(ForestSpec&)> changes = {
+      [](ForestSpec& s) { s.leaf_area = LeafAreaSource::kDensity; },
+      [](ForestSpec& s) { s.element_area_m2 = 0; },
+      [](ForestSpec& s) { s.rim_power = 0; },
+      [](ForestSpec& s) { s.branch_share = 0; },
+      [](ForestSpec& s) { s.clumps.leaf_area_m2 = 0; },
+      [](ForestSpec& s) { s.understorey.add = false; }};
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    ForestSpec changed = spec;
+    changes[i](changed);
+    EXPECT_NE(content_hash(grow_forest(changed, species(), {})), whole) << i;
+  }
+}
+
 TEST_F(SceneService, SameContentIsOneScene) {
   Client client = server_->client();
   const std::string name = client.create_scene(row_of_trees(2, 150)).name;

@@ -150,7 +150,7 @@ TEST(StandNetcdf, NcdumpShowsConventionsCoordinatesAndStandardNames) {
 }
 
 TEST(StandNetcdf, XarrayOpensIt) {
-  if (run("python3 -c 'import xarray, netCDF4'").code != 0) {
+  if (run("/usr/bin/python3 -c 'import xarray, netCDF4'").code != 0) {
     std::fprintf(stderr,
                  "\n*** SKIPPED: python3 with xarray and netCDF4 is not here; NetCDF was not opened in "
                  "xarray ***\n\n");
@@ -169,7 +169,7 @@ assert ds.ground_pacl_total.isel(time=0).shape == (4, 4)
 assert ds.sensor_measured_pacl.isnull().sum() == 1
 print("%.17g" % float(ds.plot_open_global_period))
 )";
-  const Ran opened = run("python3 '" + script.string() + "' '" + saved().string() + "'");
+  const Ran opened = run("/usr/bin/python3 '" + script.string() + "' '" + saved().string() + "'");
   ASSERT_EQ(opened.code, 0) << opened.text;
   EXPECT_EQ(std::stod(opened.text), example_study().tables.find(StandTarget::kPlot, "open_global")->value[0]);
 }

@@ -19,10 +19,11 @@ using test::Ran;
 using test::run;
 using test::write_file;
 
-std::string scene_with(const std::string& surroundings) {
-  return R"(
-[forest]
-name = "four trees"
+// "natural": similar trees around the plot, and everything else that makes a stand more like a real one.
+std::string scene_with(const std::string& kind) {
+  const std::string surroundings = kind == "natural" ? "similar" : kind;
+  return "[forest]\n" + std::string(kind == "natural" ? "realism = \"natural\"\nelement_area_m2 = 1\n" : "") +
+         R"(name = "four trees"
 trees = "crown"
 inventory = "four.csv"
 plot_polygon = "plot.csv"
@@ -67,7 +68,8 @@ std::string files_at(const std::string& folder) {
   fs::create_directory(test::scratch_dir() / folder);
   return " --netcdf " + out(folder + "/s.nc") + " --csv " + out(folder + "/tables") + " --report " +
          out(folder + "/r.html") + " --pictures " + out(folder + "/pictures") + " --photographs " +
-         out(folder + "/photographs") + " --photograph-px 32";
+         out(folder + "/photographs") + " --photograph-px 32 --geotiff " + out(folder + "/ground.tif") +
+         " --epsg 32632";
 }
 
 std::set<std::string> files_under(const fs::path& folder) {
@@ -125,7 +127,7 @@ TEST_P(ClientStand, WritesTheSameFilesAsTheCommandAtHome) {
                  home = test::scratch_dir() / (kind + "_local");
   const std::set<std::string> names = files_under(home);
   EXPECT_EQ(files_under(from), names);
-  EXPECT_GE(names.size(), 14u);
+  EXPECT_GE(names.size(), 17u);
   for (const std::string& file : names) {
     if (file == "s.nc") continue;
     if (file == "r.html")
@@ -137,7 +139,7 @@ TEST_P(ClientStand, WritesTheSameFilesAsTheCommandAtHome) {
   EXPECT_NE(content(test::scratch_dir() / (kind + ".json")).find("\"plot\""), std::string::npos);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ClientStand, ::testing::Values("periodic", "similar"),
+INSTANTIATE_TEST_SUITE_P(All, ClientStand, ::testing::Values("periodic", "natural"),
                          [](const auto& test) { return std::string(test.param); });
 
 TEST(ClientStandMistakes, AreToldBeforeTheServerIsAsked) {

@@ -69,12 +69,13 @@ std::string out(const std::string& name) { return (test::scratch_dir() / name).s
 TEST(StandCommand, WritesEverythingAskedForAndSaysWhatAPersonWantsToKnow) {
   const Ran ran = run("stand " + scene() + " --netcdf " + out("s.nc") + " --csv " + out("tables") +
                       " --report " + out("r.html") + " --pictures " + out("pictures") + " --photographs " +
-                      out("photographs") + " --photograph-px 32");
+                      out("photographs") + " --photograph-px 32 --geotiff " + out("ground.tif"));
   ASSERT_EQ(ran.code, 0) << ran.text;
   for (const char* file :
        {"s.nc", "r.html", "tables/trees.csv", "tables/sensors.csv", "tables/ground.csv", "tables/layers.csv",
         "tables/plot.csv", "pictures/ground_map.png", "pictures/height_profile.png", "pictures/season.png",
-        "pictures/sensors.png", "photographs/sensor_middle.png", "photographs/sensor_edge.png"})
+        "pictures/sensors.png", "photographs/sensor_middle.png", "photographs/sensor_edge.png",
+        "photographs/sensor_edge_sun_paths.png", "ground.tif"})
     EXPECT_GT(fs::file_size(test::scratch_dir() / file), 200u) << file;
   for (const char* text :
        {"4 trees", "1130 MJ m-2 global (50 % of it diffuse)", "leaf area index", "leaves absorb", "2021-06",
@@ -128,6 +129,8 @@ TEST(StandCommand, OneClearErrorForEveryMistakeAndNothingLeftBehind) {
       {"stand " + scene(), "--report FILE.html"},
       {"stand " + scene() + " --netcdf a.txt", ".nc"},
       {"stand " + scene() + " --report /nonexistent/r.html", "there is no folder"},
+      {"stand " + scene() + " --geotiff a.png", ".tif"},
+      {"stand " + scene() + " --netcdf " + nc + " --epsg 32632", "--geotiff"},
       {"stand " + scene() + " --csv " + scene(), "is a file"},
       {"stand " + scene() + " --csv /nonexistent/a/b", "there is no folder"},
       {"stand " + scene() + " --forest nowhere.vdb --netcdf " + nc, "nowhere.vdb"},
