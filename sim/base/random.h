@@ -42,7 +42,8 @@ enum class RandomPurpose : std::uint32_t {
   kClumps,
   kCrownBranches,
   kUnderstorey,
-  kSplitHalf
+  kSplitHalf,
+  kNeedles = 60
 };
 
 // One stream of numbers: (seed, element, purpose) names it, next() walks it. Cheap to make, copy and skip.

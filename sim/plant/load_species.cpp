@@ -28,6 +28,7 @@ LeafAreaLaw read_leaf_area(const ConfigTable& table) {
 
 HeightCurve read_height(const ConfigTable& table) {
   require_source(table);
+  if (table.has("a")) return {0, 0, table.number("a", {1e-3, 100.0}), table.number("b", {0.0, 2.0})};
   return {table.number("p", {0.0, 5.0}), table.number("q", {-200.0, 0.0})};
 }
 
@@ -52,6 +53,9 @@ FoliageTemplate read_foliage(const ConfigTable& table) {
     foliage.needle_length_m = table.number("needle_length_m", kSize_m);
     foliage.needle_width_m = table.number("needle_width_m", kSize_m);
     foliage.needles_per_m = table.number("needles_per_m", {1.0, 1e6});
+    foliage.needles_per_fascicle = static_cast<std::uint32_t>(
+        table.integer_or("needles_per_fascicle", 1, {1, 200}));
+    foliage.needles_combed = table.boolean_or("needles_combed", false);
   }
   foliage.angles = read_angles(table);
   return foliage;
@@ -92,6 +96,29 @@ void read_crown(const ConfigTable& table, Species& species) {
   require_source(table, "shape_source");
 }
 
+OpenGrown read_open_grown(const ConfigTable& table) {
+  OpenGrown open;
+  open.height_above_breast_m = read_power_law(table.table("height_above_breast"));
+  open.crown_radius = read_power_law(table.table("crown_radius"));
+  open.crown_length_ratio = table.number("length_ratio", {0.05, 0.99});
+  require_source(table, "length_ratio_source");
+  return open;
+}
+
+Demography read_demography(const ConfigTable& table) {
+  require_source(table);
+  Demography d;
+  d.max_height_m = table.number("max_height_m", {1, 150});
+  d.max_age_yr = table.number("max_age_yr", {10, 5000});
+  d.maturity_age_yr = table.number("maturity_age_yr", {1, 1000});
+  d.shade_tolerance = table.number("shade_tolerance", {1, 5});
+  d.seed_year_interval_yr = table.number("seed_year_interval_yr", {1, 50});
+  d.seedlings_per_m2 = table.number("seedlings_per_m2", {0, 1e5});
+  d.seed_distance_m = table.number("seed_distance_m", {0.1, 1e5});
+  d.survive_to_max_age = table.number("survive_to_max_age", kFraction);
+  return d;
+}
+
 void read_names(const ConfigTable& table, Species& species) {
   species.code = table.text("code");
   species.latin = table.text("latin");
@@ -115,6 +142,8 @@ Species load_species(const std::filesystem::path& path) {
   require_source(leaf_area);
   species.specific_leaf_area_m2_kg = leaf_area.number("m2_per_kg", {0.1, 100.0});
   if (const auto law = table.table_if("leaf_area")) species.harvested_leaf_area = read_leaf_area(*law);
+  if (const auto open = table.table_if("open_grown")) species.open_grown = read_open_grown(*open);
+  if (const auto life = table.table_if("demography")) species.demography = read_demography(*life);
   species.foliage = read_foliage(table.table("foliage"));
   read_optics(table.table("optics"), species);
   table.reject_unread();

@@ -19,12 +19,15 @@ namespace sunfleck {
 struct TreeSize {
   double dbh_m = 0.3, height_m = 20, crown_base_m = 8, crown_radius_m = 3, leaf_area_m2 = 60;
 };
-TreeSize expected_size(const Species& species, double dbh_cm);
+// Throws Error(kInvalidInput) for a DBH out of range, and for an open-grown tree of a species without such
+// numbers.
+TreeSize expected_size(const Species& species, double dbh_cm, TreeForm form = TreeForm::kStandGrown);
 
 // Grows the species' grammar with the size as constants, turns internodes into wood by the pipe model
 // (cross-section kept at forks, disused pipes in the stem) scaled to the DBH, and organs into leaves or
-// shoots. `detail` in (0, 1]: the share of foliage elements kept (kept ones enlarged so that the leaf area
-// stays; wood that carries none of them is left out).
+// shoots. Wood that would run into other wood is left out with what grows on it. `detail` in (0, 1]: the
+// share of foliage elements kept (kept ones enlarged so that the leaf area stays; wood that carries none of
+// them is left out).
 Prototype grow_prototype(const Species& species, const TreeSize& size, std::uint64_t seed, double detail,
                          const RunControl& control = {});
 

@@ -77,7 +77,9 @@ double Species::leaf_area_m2(double dbh_cm, double height_m) const {
 
 double PowerLaw::at(double dbh_cm) const { return a * std::pow(dbh_cm, b); }
 
-double HeightCurve::at(double dbh_cm) const { return kBreastHeight_m + std::exp(p + q / (dbh_cm + 1.0)); }
+double HeightCurve::at(double dbh_cm) const {
+  return kBreastHeight_m + (a > 0 ? a * std::pow(dbh_cm, b) : std::exp(p + q / (dbh_cm + 1.0)));
+}
 
 double FoliageTemplate::shoot_area_m2() const {
   return needles_per_m * shoot_length_m * 0.5 * kPi * needle_length_m * needle_width_m;
@@ -87,10 +89,26 @@ double FoliageTemplate::shoot_density_per_m() const {
   return shoot_area_m2() / (kPi * shoot_radius_m * shoot_radius_m * shoot_length_m);
 }
 
-TreeSize expected_size(const Species& species, double dbh_cm) {
+namespace {
+
+TreeSize open_grown_size(const Species& species, double dbh_cm) {
+  if (!species.open_grown)
+    throw_invalid(species.latin + ": open_grown", "nothing is known of trees that grew up alone",
+                  "an [open_grown] table in its file, or the stand-grown form");
+  const OpenGrown& open = *species.open_grown;
+  const double height_m =
+      std::min(species.height_m(dbh_cm), kBreastHeight_m + open.height_above_breast_m.at(dbh_cm));
+  return {dbh_cm / 100.0, height_m, (1 - open.crown_length_ratio) * height_m, open.crown_radius.at(dbh_cm),
+          species.leaf_area_m2(dbh_cm)};
+}
+
+}  // namespace
+
+TreeSize expected_size(const Species& species, double dbh_cm, TreeForm form) {
   if (!(dbh_cm > 0.0 && dbh_cm <= 1000.0))
     throw_invalid("dbh_cm", std::to_string(dbh_cm) + " is no stem diameter",
                   "give a diameter at breast height in cm, above 0 and at most 1000");
+  if (form == TreeForm::kOpenGrown) return open_grown_size(species, dbh_cm);
   return {dbh_cm / 100.0, species.height_m(dbh_cm), species.crown_base_m(dbh_cm),
           species.crown_radius_m(dbh_cm), species.leaf_area_m2(dbh_cm)};
 }

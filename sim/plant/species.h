@@ -2,6 +2,7 @@
 // source.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -17,9 +18,10 @@ struct PowerLaw {
   double at(double dbh_cm) const;
 };
 
-// h = 1.3 m + exp(p + q / (dbh_cm + 1))
+// h = 1.3 m + exp(p + q / (dbh_cm + 1)); or, where a > 0, h = 1.3 m + a * dbh_cm^b
 struct HeightCurve {
   double p = 0, q = 0;
+  double a = 0, b = 0;
   double at(double dbh_cm) const;
 };
 
@@ -39,6 +41,8 @@ struct FoliageTemplate {
   double shoot_length_m = 0.1, shoot_radius_m = 0.02;      // shoot
   double needle_length_m = 0.015, needle_width_m = 0.001;  // shoot; width of the round needle of equal girth
   double needles_per_m = 1500;                             // shoot
+  std::uint32_t needles_per_fascicle = 1;                  // shoot; tufts from 6 on
+  bool needles_combed = false;                             // shoot; into its plane, as in fir
   LeafAngles angles = LeafAngles::kSpherical;              // of leaf normals; of shoot axes: see crown_fill.h
 
   // One-sided (half of the total) needle area of one template shoot, of round needles: pi/2 length * width
@@ -46,6 +50,26 @@ struct FoliageTemplate {
   double shoot_area_m2() const;
   // That area per volume of the shoot's cylinder.
   double shoot_density_per_m() const;
+};
+
+// How a tree grew up: among others, which took the light from its lower branches, or alone.
+enum class TreeForm : std::uint8_t { kStandGrown, kOpenGrown };
+
+// What is different in trees that always stood alone.
+struct OpenGrown {
+  PowerLaw height_above_breast_m;  // a * dbh_cm^b above 1.3 m; never more than in a stand
+  PowerLaw crown_radius;
+  double crown_length_ratio = 0.9;
+};
+
+// A species in time.
+struct Demography {
+  double max_height_m = 40, max_age_yr = 300, maturity_age_yr = 30;
+  double shade_tolerance = 3;  // 1 light-demanding to 5 shade-tolerant
+  double seed_year_interval_yr = 4;
+  double seedlings_per_m2 = 100;  // of canopy, in a seed year
+  double seed_distance_m = 100;   // mean, exponential kernel
+  double survive_to_max_age = 0.01;
 };
 
 // How well the optics are known.
@@ -60,6 +84,8 @@ struct Species {
   PowerLaw foliage_mass_kg;
   double specific_leaf_area_m2_kg = 10;            // one-sided
   std::optional<LeafAreaLaw> harvested_leaf_area;  // [leaf_area], where harvests of the species are known
+  std::optional<OpenGrown> open_grown;
+  std::optional<Demography> demography;
   FoliageTemplate foliage;
   std::string crown_shape;        // "ellipsoid", "cone", "paraboloid"
   std::filesystem::path grammar;  // empty: the species is known by its crown only

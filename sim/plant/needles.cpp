@@ -1,0 +1,122 @@
+#include "sim/plant/needles.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/base/contract.h"
+#include "sim/base/random.h"
+
+namespace sunfleck {
+namespace {
+
+constexpr double kGoldenAngle_rad = 2.399963229728653;
+constexpr double kTwigShare = 0.08;        // needles begin at this share of the shoot's radius from its axis
+constexpr double kCombedShare = 0.25;      // how much of its way out of the plane a combed needle keeps
+constexpr double kFascicleSpread_rad = 0.2;  // half the angle between the two needles of a pair
+constexpr std::uint32_t kTuft = 6;           // from so many needles on, a fascicle is a tuft round a short shoot
+
+// The shoot's frame and the needle's size in it.
+struct ShootFrame {
+  Vec3 foot_m, along, left, up;
+  double length_m, radius_m, needle_m;
+
+  Vec3 outward(double azimuth_rad) const { return std::cos(azimuth_rad) * left + std::sin(azimuth_rad) * up; }
+};
+
+ShootFrame frame_of(const FoliageElement& shoot, const FoliageTemplate& foliage) {
+  ShootFrame f;
+  const Vec3 u(shoot.half_u_m), v(shoot.half_v_m);
+  f.length_m = 2 * glm::length(u);
+  f.radius_m = glm::length(v);
+  f.along = glm::normalize(u);
+  f.left = glm::normalize(v - f.along * glm::dot(v, f.along));
+  f.up = glm::cross(f.along, f.left);
+  f.foot_m = Vec3(shoot.centre_m) - u;
+  f.needle_m = std::min(foliage.needle_length_m * f.length_m / foliage.shoot_length_m, 0.9 * f.length_m);
+  return f;
+}
+
+// Left and right in the plane of the spray, the upper ones lifted a little.
+double combed(double azimuth_rad) {
+  const double out = std::asin(std::sin(azimuth_rad));
+  return std::cos(azimuth_rad) >= 0 ? kCombedShare * out : kPi - kCombedShare * out;
+}
+
+// A needle that leans towards the tip: it goes out by the rest of the radius.
+Needle leaning(const ShootFrame& f, double share, double azimuth_rad) {
+  const double out_m = std::min((1 - kTwigShare) * f.radius_m, 0.98 * f.needle_m);
+  const double forward_m = std::sqrt(f.needle_m * f.needle_m - out_m * out_m);
+  const Vec3 outward = f.outward(azimuth_rad);
+  const Vec3 base = f.foot_m + share * (f.length_m - forward_m) * f.along + kTwigShare * f.radius_m * outward;
+  return {Vec3f(base), Vec3f(base + out_m * outward + forward_m * f.along), 0};
+}
+
+// A needle of a tuft at `share` of the way along: `tilt` from the short shoot, towards `turn` round it. It is
+// turned over where it would reach beyond an end of the shoot.
+Needle spread(const ShootFrame& f, double share, double azimuth_rad, double tilt_rad, double turn_rad) {
+  const Vec3 outward = f.outward(azimuth_rad), across = glm::cross(f.along, outward);
+  const Vec3 base = f.foot_m + share * f.length_m * f.along + kTwigShare * f.radius_m * outward;
+  const double side_m = f.needle_m * std::sin(tilt_rad);
+  double forward_m = side_m * std::cos(turn_rad);
+  if (share * f.length_m + forward_m > f.length_m || share * f.length_m + forward_m < 0) forward_m = -forward_m;
+  const Vec3 way = f.needle_m * std::cos(tilt_rad) * outward + forward_m * f.along +
+                   side_m * std::sin(turn_rad) * across;
+  return {Vec3f(base), Vec3f(base + way), 0};
+}
+
+// Least tilt from the short shoot at which the tip stays inside the cylinder, whatever the turn: the tip is at
+// most sqrt((r0 + l cos t)^2 + (l sin t)^2) from the axis; with r0 = 0 that is l, so long needles must lie
+// along the shoot more than across. `across` is the share of the sideways part that is allowed.
+double most_across(const ShootFrame& f, double tilt_rad) {
+  const double out_m = kTwigShare * f.radius_m + f.needle_m * std::cos(tilt_rad);
+  const double room_m2 = f.radius_m * f.radius_m - out_m * out_m;
+  const double side_m = f.needle_m * std::sin(tilt_rad);
+  return room_m2 <= 0 ? 0 : std::min(1.0, std::sqrt(room_m2) / side_m);
+}
+
+void add_tuft(const ShootFrame& f, double share, double azimuth_rad, std::uint32_t count,
+              RandomStream& random, std::vector<Needle>& needles) {
+  const double steepest = std::acos(std::min(1.0, (1 - kTwigShare) * f.radius_m / f.needle_m));
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const double level = (k + random.uniform()) / count;
+    const double tilt = std::min(std::max(std::acos(1 - level), steepest), 0.5 * kPi);
+    const double turn = kGoldenAngle_rad * k;
+    const double across = most_across(f, tilt);
+    const double kept = std::abs(std::sin(turn)) <= across ? turn : std::asin(across * (std::sin(turn) < 0 ? -1 : 1));
+    needles.push_back(spread(f, share, azimuth_rad, tilt, std::cos(turn) < 0 && kept != turn ? kPi - kept : kept));
+  }
+}
+
+}  // namespace
+
+std::size_t needle_count(const FoliageTemplate& foliage) {
+  return static_cast<std::size_t>(std::max(1.0, std::round(foliage.needles_per_m * foliage.shoot_length_m)));
+}
+
+void expand_needles(const FoliageElement& shoot, const FoliageTemplate& foliage, std::uint64_t seed,
+                    std::uint64_t number, std::vector<Needle>& needles) {
+  SUNFLECK_EXPECTS(shoot.shape == ElementShape::kShoot && foliage.kind == FoliageKind::kShoot);
+  const ShootFrame f = frame_of(shoot, foliage);
+  const std::size_t count = needle_count(foliage), begin = needles.size();
+  const std::uint32_t each = foliage.needles_per_fascicle;
+  const std::size_t fascicles = (count + each - 1) / each;
+  RandomStream random(seed, number, RandomPurpose::kNeedles);
+  const double start = random.uniform(0, 2 * kPi);
+  for (std::size_t i = 0; i < fascicles; ++i) {
+    const double share = (static_cast<double>(i) + 0.5) / static_cast<double>(fascicles);
+    const double azimuth = start + kGoldenAngle_rad * static_cast<double>(i);
+    const auto here = static_cast<std::uint32_t>(std::min<std::size_t>(each, count - i * each));
+    if (each >= kTuft) {
+      add_tuft(f, share, azimuth, here, random, needles);
+      continue;
+    }
+    for (std::uint32_t k = 0; k < here; ++k) {
+      const double turned = azimuth + (each > 1 ? kFascicleSpread_rad * (2.0 * k / (each - 1) - 1) : 0);
+      needles.push_back(leaning(f, share, foliage.needles_combed ? combed(turned) : turned));
+    }
+  }
+  const auto radius_m = static_cast<float>(shoot.area_m2 / (kPi * f.needle_m * static_cast<double>(count)));
+  for (std::size_t i = begin; i < needles.size(); ++i) needles[i].radius_m = radius_m;
+}
+
+}  // namespace sunfleck
