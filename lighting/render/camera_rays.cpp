@@ -3,6 +3,7 @@
 #include "lighting/render/camera_rays.h"
 
 #include <cmath>
+#include <cstdint>
 #include <string>
 
 #include "sim/base/error.h"
@@ -12,6 +13,7 @@ namespace {
 
 constexpr int kMaxSidePx = 16384;
 constexpr int kMaxSamples = 4096;
+constexpr std::int64_t kMaxPixels = 100'000'000;  // 4 GB of layers
 constexpr double kParallelSine = 1e-6;  // below it the direction of `up` in the picture is rounding noise
 
 [[noreturn]] void refuse(const char* field, const std::string& problem, const std::string& remedy) {
@@ -62,6 +64,10 @@ void validate(const Camera& camera) {
   check_projection(camera);
   check_range("width_px", camera.width_px, 1, kMaxSidePx, "use 1 to 16384 pixels");
   check_range("height_px", camera.height_px, 1, kMaxSidePx, "use 1 to 16384 pixels");
+  const std::int64_t pixels = std::int64_t{camera.width_px} * camera.height_px;
+  if (pixels > kMaxPixels)
+    throw Error(ErrorKind::kLimitExceeded, "camera.width_px",
+                "times height_px is " + std::to_string(pixels) + " pixels", "at most 100 million together");
   check_range("samples_per_pixel", camera.samples_per_pixel, 1, kMaxSamples, "use 1 to 4096");
 }
 

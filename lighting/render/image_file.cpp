@@ -1,21 +1,19 @@
-// Images as files. EXR: linear floats in named layers. PNG: the same colours for the eye, scaled so that the
-// 99th percentile of pixels is white (one per cent may burn out: a sun, a glint), then the sRGB transfer.
+// Images as files. EXR: linear floats in named layers. PNG: the same colours for the eye (tone_map.h).
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
 #include "lighting/render/photograph_file.h"
 #include "lighting/render/render.h"
+#include "lighting/render/tone_map.h"
 #include "sim/base/pending_file.h"
 
 namespace sunfleck {
 namespace {
 
-constexpr double kWhitePercentile = 0.99;
-constexpr std::size_t kExrChannels = 9;
+constexpr std::size_t kExrChannels = 10;
 
 // `format` decides what is written, whatever the name's extension.
 void write_pixels(const std::filesystem::path& path, const char* format, const OIIO::ImageSpec& spec,
@@ -35,32 +33,11 @@ std::vector<float> interleaved_layers(const Image& image) {
   std::vector<float> values;
   values.reserve(kExrChannels * pixel_count(image));
   for (std::size_t p = 0; p < pixel_count(image); ++p)
-    values.insert(values.end(), {image.rgb[3 * p], image.rgb[3 * p + 1], image.rgb[3 * p + 2],
-                                 image.depth_m[p], image.normal[3 * p], image.normal[3 * p + 1],
-                                 image.normal[3 * p + 2], image.instance_id[p], image.irradiance_w_m2[p]});
+    values.insert(values.end(),
+                  {image.rgb[3 * p], image.rgb[3 * p + 1], image.rgb[3 * p + 2], image.depth_m[p],
+                   image.normal[3 * p], image.normal[3 * p + 1], image.normal[3 * p + 2],
+                   image.instance_id[p], image.irradiance_w_m2[p], image.rgb_standard_error[p]});
   return values;
-}
-
-// Radiance that becomes white; 1 for a black picture. The brightest channel of a pixel counts, so that a blue
-// sky stays blue instead of losing its strongest channel.
-double white_level(const Image& image) {
-  std::vector<float> brightness;
-  for (std::size_t p = 0; p < pixel_count(image); ++p)
-    brightness.push_back(std::max({image.rgb[3 * p], image.rgb[3 * p + 1], image.rgb[3 * p + 2]}));
-  const auto rank =
-      static_cast<std::ptrdiff_t>(kWhitePercentile * static_cast<double>(brightness.size() - 1) + 0.5);
-  std::nth_element(brightness.begin(), brightness.begin() + rank, brightness.end());
-  const float level = brightness[static_cast<std::size_t>(rank)];
-  if (level > 0.0f) return level;
-  const float brightest = *std::max_element(brightness.begin(), brightness.end());
-  return brightest > 0.0f ? brightest : 1.0;
-}
-
-// IEC 61966-2-1.
-std::uint8_t srgb_byte(double linear) {
-  const double x = std::clamp(linear, 0.0, 1.0);
-  const double encoded = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
-  return static_cast<std::uint8_t>(std::lround(255.0 * encoded));
 }
 
 }  // namespace
@@ -76,8 +53,8 @@ void save_png(const HemisphericalPhotograph& photograph, const std::filesystem::
 
 void save_exr(const Image& image, const std::filesystem::path& path) {
   OIIO::ImageSpec spec(image.width_px, image.height_px, kExrChannels, OIIO::TypeDesc::FLOAT);
-  spec.channelnames = {"R",        "G",        "B",           "depth.Z",     "normal.X",
-                       "normal.Y", "normal.Z", "instance.id", "irradiance.Y"};
+  spec.channelnames = {"R",        "G",        "B",           "depth.Z",      "normal.X",
+                       "normal.Y", "normal.Z", "instance.id", "irradiance.Y", "error.Y"};
   spec.attribute("compression", "zip");
   spec.attribute("oiio:ColorSpace", "Linear");
   // Without one, the library would write the time of day: equal pictures shall be equal files.
@@ -85,14 +62,13 @@ void save_exr(const Image& image, const std::filesystem::path& path) {
   write_pixels(path, "openexr", spec, OIIO::TypeDesc::FLOAT, interleaved_layers(image).data());
 }
 
-void save_png(const Image& image, const std::filesystem::path& path) {
-  const double white = white_level(image);
-  std::vector<std::uint8_t> bytes;
-  bytes.reserve(image.rgb.size());
-  for (const float value : image.rgb) bytes.push_back(srgb_byte(value / white));
+void save_png(const Image& image, const std::filesystem::path& path, const ToneMap& tone) {
+  const std::vector<std::uint8_t> bytes = tone_mapped(image, tone);
   OIIO::ImageSpec spec(image.width_px, image.height_px, 3, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
   write_pixels(path, "png", spec, OIIO::TypeDesc::UINT8, bytes.data());
 }
+
+void save_png(const Image& image, const std::filesystem::path& path) { save_png(image, path, ToneMap{}); }
 
 }  // namespace sunfleck

@@ -1,33 +1,21 @@
-// Renders tile by tile. Every sample draws from the stream of its own (pixel, sample), so the picture is the
-// same for any number of threads. Layers other than colour come from one ray through the pixel's centre.
+// The two ways to a picture. Every sample draws from the stream of its own (pixel, unit), so the picture is
+// the same for any number of threads. Layers other than colour come from one ray through the pixel's centre.
 #include "lighting/render/render.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <mutex>
 
 #include "lighting/render/camera_rays.h"
+#include "lighting/render/path_tracer.h"
+#include "lighting/render/render_passes.h"
 #include "lighting/render/shader.h"
 #include "sim/base/error.h"
-#include "sim/base/parallel.h"
 
 namespace sunfleck {
 namespace {
 
-constexpr int kTilePx = 64;
-
-struct Tile {
-  int x0, y0, x1, y1;
-};
-
-struct View {
-  const Camera& camera;
-  const CameraRays& rays;
-  const RayScene& scene;
-  const Shader& shader;
-  const LightMap& map;
-};
+constexpr char kPar[] = "PAR";
+constexpr int kPathsPerUnit = 4;
 
 void refuse_map(const std::string& problem) {
   throw_invalid("map", problem, "give the light map that was computed for this forest and these bands");
@@ -49,117 +37,141 @@ void require_match(const ForestIndex& index, const OpticsTable& optics, const Li
   }
 }
 
-Image empty_image(const Camera& camera) {
-  const std::size_t pixels =
-      static_cast<std::size_t>(camera.width_px) * static_cast<std::size_t>(camera.height_px);
-  Image image;
-  image.width_px = camera.width_px;
-  image.height_px = camera.height_px;
-  image.rgb.assign(3 * pixels, 0.0f);
-  image.rgb_standard_error.assign(pixels, 0.0f);
-  image.depth_m.assign(pixels, std::numeric_limits<float>::infinity());
-  image.normal.assign(3 * pixels, 0.0f);
-  image.instance_id.assign(pixels, -1.0f);
-  image.irradiance_w_m2.assign(pixels, 0.0f);
-  return image;
+void refuse_blind_camera(const Forest& forest, const Camera& camera) {
+  if (camera.kind == CameraKind::kOrthographic) return;
+  const Inside inside = what_holds(forest, camera.position_m);
+  if (inside.wood)
+    throw_invalid(
+        "camera.position_m",
+        "lies inside the wood of tree " + std::to_string(forest.instances[inside.instance].tree.value),
+        "a place in the open");
+  if (inside.below_ground) throw_invalid("camera.position_m", "lies below the ground", "a place above it");
 }
 
-std::vector<Tile> tiles_of(const Camera& camera) {
-  std::vector<Tile> tiles;
-  for (int y = 0; y < camera.height_px; y += kTilePx)
-    for (int x = 0; x < camera.width_px; x += kTilePx)
-      tiles.push_back(
-          {x, y, std::min(x + kTilePx, camera.width_px), std::min(y + kTilePx, camera.height_px)});
-  return tiles;
+std::size_t picture_band(const OpticsTable& optics) {
+  const auto& bands = optics.bands();
+  const auto par = std::find(bands.begin(), bands.end(), kPar);
+  return par == bands.end() ? 0 : static_cast<std::size_t>(par - bands.begin());
 }
 
-Vec3 sample(const View& view, int x, int y, RandomStream& random) {
-  const double dx = random.uniform(), dy = random.uniform();
-  const auto ray = view.rays.through(x + dx, y + dy);
-  if (!ray) return Vec3(0.0);
-  return view.shader.radiance(view.scene.closest_hit(ray->origin_m, ray->direction), ray->direction, random);
-}
+// What both ways need, made once per picture.
+struct Stage {
+  Illumination light;
+  std::size_t band;
+  PictureColour colour;
+  PictureScene scene;
+  PictureLight sources;
+  SurfaceTable surfaces;
+  CameraRays rays;
 
-// Mean and variance of a growing sample, by updates (Welford 1962): never a difference of large sums.
-struct RunningMean {
-  int count = 0;
-  double mean = 0, squares = 0;
-  void add(double value) {
-    ++count;
-    const double step = value - mean;
-    mean += step / count;
-    squares += step * (value - mean);
-  }
-  double standard_error() const { return count > 1 ? std::sqrt(squares / (count - 1.0) / count) : 0.0; }
+  Stage(const Forest& forest, const OpticsTable& optics, const RenderRequest& request,
+        const RunControl& control)
+      : light(checked(request.light, optics.band_count())),
+        band(picture_band(optics)),
+        colour(picture_colour(optics.bands()[band] == kPar ? PictureBand::kPar : PictureBand::kOther, light,
+                              band)),
+        scene(forest, request.look, control),
+        sources(light, band, colour),
+        surfaces(scene, optics, band, colour, request.look),
+        rays(request.camera) {}
 };
 
-void shade_pixel(const View& view, int x, int y, std::size_t pixel, const RunControl& control, Image& image) {
-  const int samples = view.camera.samples_per_pixel;
-  Vec3 sum(0.0);
-  RunningMean grey;
-  for (int s = 0; s < samples; ++s) {
-    control.check();
-    RandomStream random(view.camera.seed,
-                        pixel * static_cast<std::size_t>(samples) + static_cast<std::size_t>(s),
-                        RandomPurpose::kCamera);
-    const Vec3 colour = sample(view, x, y, random);
-    sum += colour;
-    grey.add((colour.x + colour.y + colour.z) / 3.0);
-  }
-  for (int c = 0; c < 3; ++c)
-    image.rgb[3 * pixel + static_cast<std::size_t>(c)] = static_cast<float>(sum[c] / samples);
-  image.rgb_standard_error[pixel] = static_cast<float>(grey.standard_error());
-}
-
-void look_through_centre(const View& view, int x, int y, std::size_t pixel, Image& image) {
-  const auto ray = view.rays.through(x + 0.5, y + 0.5);
+void look_through_centre(const Stage& stage, int x, int y, std::size_t pixel, Image& image,
+                         const BandLightMap* map, const ForestIndex& index) {
+  const auto ray = stage.rays.through(x + 0.5, y + 0.5);
   if (!ray) return;
-  const RayHit hit = view.scene.closest_hit(ray->origin_m, ray->direction);
+  const RayHit hit = stage.scene.closest_hit(ray->origin_m, ray->direction);
   if (hit.kind == HitKind::kSky) return;
   image.depth_m[pixel] = static_cast<float>(hit.distance_m);
   for (int c = 0; c < 3; ++c)
     image.normal[3 * pixel + static_cast<std::size_t>(c)] = static_cast<float>(hit.normal[c]);
   if (hit.kind == HitKind::kGround) return;
   image.instance_id[pixel] = static_cast<float>(hit.instance);
-  if (hit.kind != HitKind::kFoliage) return;
-  const ElementLight& light = view.map.bands.front().elements[view.shader.element_of(hit)];
+  if (hit.kind != HitKind::kFoliage || map == nullptr) return;
+  const ElementLight& light = map->elements[index.first_element(hit.instance) + hit.local];
   image.irradiance_w_m2[pixel] = light.front.total() + light.back.total();
 }
 
-void render_tile(const View& view, const Tile& tile, const RunControl& control, Image& image) {
-  for (int y = tile.y0; y < tile.y1; ++y)
-    for (int x = tile.x0; x < tile.x1; ++x) {
-      const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width_px) +
-                                static_cast<std::size_t>(x);
-      look_through_centre(view, x, y, pixel, image);
-      shade_pixel(view, x, y, pixel, control, image);
-    }
+Image run(const Stage& stage, const RenderRequest& request, int samples_per_unit, const UnitSampler& sample,
+          const BandLightMap* map, const ForestIndex& index, const RunControl& control,
+          const TileSink& tiles) {
+  const LayerFill layers = [&](int x, int y, std::size_t pixel, Image& image) {
+    look_through_centre(stage, x, y, pixel, image, map, index);
+  };
+  return run_passes(request.camera, plan_passes(request.camera, request.effort, samples_per_unit), sample,
+                    layers, control, tiles);
+}
+
+// Units of four low-discrepancy samples; with fewer than four units of them there is no error to state.
+int paths_per_unit(const RenderRequest& request) {
+  if (request.effort.noise > 0.0) return kPathsPerUnit;
+  return std::clamp(request.camera.samples_per_pixel / 4, 1, kPathsPerUnit);
 }
 
 }  // namespace
 
+void validate(const RenderRequest& request) {
+  validate(request.camera);
+  const auto within = [](double x, double lo, double hi) { return x >= lo && x <= hi; };
+  if (!within(request.effort.noise, 0.0, 1.0))
+    throw_invalid("render.noise", "is " + std::to_string(request.effort.noise), "0 (none) to 1");
+  if (!within(request.effort.max_samples_per_pixel, 1, 1 << 20))
+    throw_invalid("render.max_samples_per_pixel",
+                  "is " + std::to_string(request.effort.max_samples_per_pixel), "1 to 1048576");
+  if (!within(request.look.leaf_gloss, 0.0, 1.0))
+    throw_invalid("render.leaf_gloss", "is " + std::to_string(request.look.leaf_gloss), "0 to 1");
+  if (!within(request.look.gloss_exponent, 1.0, 1000.0))
+    throw_invalid("render.gloss_exponent", "is " + std::to_string(request.look.gloss_exponent), "1 to 1000");
+  if (!within(request.look.bark_width_m, 1e-3, 100.0))
+    throw_invalid("render.bark_width_m", "is " + std::to_string(request.look.bark_width_m), "0.001 to 100 m");
+}
+
 Image render(const Forest& forest, const OpticsTable& optics, const LightMap& map,
              const RenderRequest& request, const RunControl& control, const TileSink& tiles) {
-  validate(request.camera);
-  const Illumination light = checked(request.light, optics.band_count());
+  validate(request);
   const ForestIndex index(forest);
   require_match(index, optics, map);
+  refuse_blind_camera(forest, request.camera);
   control.check();
-  const RayScene scene(forest, {});
-  const Shader shader(forest, index, optics, map, light, scene);
-  const CameraRays rays(request.camera);
-  const View view{request.camera, rays, scene, shader, map};
+  const Stage stage(forest, optics, request, control);
+  const PictureColour grey;
+  const PictureLight grey_light(stage.light, stage.band, grey);
+  const SurfaceTable grey_surfaces(stage.scene, optics, stage.band, grey, request.look);
+  const BandLightMap& band = map.bands[stage.band];
+  const ShadingParts parts{stage.scene,  index,           band, stage.surfaces, stage.sources,
+                           stage.colour, request.leaf_sun};
+  const ShadingParts grey_parts{stage.scene, index, band, grey_surfaces, grey_light, grey, request.leaf_sun};
+  const Shader shader(parts, find_mean_light(parts, grey_parts));
+  const UnitSampler sample = [&](int x, int y, std::size_t pixel, std::uint32_t unit) {
+    RandomStream random(mix_seed(request.camera.seed, unit), pixel, RandomPurpose::kCamera);
+    const double dx = random.uniform(), dy = random.uniform();
+    const auto ray = stage.rays.through(x + dx, y + dy);
+    if (!ray) return Vec3(0.0);
+    return shader.radiance(stage.scene.closest_hit(ray->origin_m, ray->direction), ray->direction, random);
+  };
+  return run(stage, request, 1, sample, &map.bands.front(), index, control, tiles);
+}
 
-  Image image = empty_image(request.camera);
-  const std::vector<Tile> plan = tiles_of(request.camera);
-  std::mutex telling;
-  for_each_chunk(plan.size(), 1, control, "rendering", [&](std::size_t t, std::size_t) {
-    render_tile(view, plan[t], control, image);
-    if (!tiles) return;
-    const std::lock_guard lock(telling);
-    tiles(image, plan[t].x0, plan[t].y0, plan[t].x1, plan[t].y1);
-  });
-  return image;
+Image render_path_traced(const Forest& forest, const OpticsTable& optics, const RenderRequest& request,
+                         const RunControl& control, const TileSink& tiles) {
+  validate(request);
+  refuse_blind_camera(forest, request.camera);
+  control.check();
+  const ForestIndex index(forest);
+  const Stage stage(forest, optics, request, control);
+  const PathTracer tracer(stage.scene, stage.surfaces, stage.sources);
+  const int paths = paths_per_unit(request);
+  const UnitSampler sample = [&](int x, int y, std::size_t pixel, std::uint32_t unit) {
+    Vec3 sum(0.0);
+    for (int s = 0; s < paths; ++s) {
+      PathSamples numbers(request.camera.seed, pixel, unit, static_cast<std::uint32_t>(s));
+      const auto place = numbers.next();
+      const auto ray = stage.rays.through(x + place[0], y + place[1]);
+      if (ray) sum += tracer.radiance(ray->origin_m, ray->direction, numbers);
+    }
+    return sum / static_cast<double>(paths);
+  };
+  return run(stage, request, paths, sample, nullptr, index, control, tiles);
 }
 
 }  // namespace sunfleck

@@ -1,5 +1,6 @@
-// Images of a lit forest: primary rays through Embree, leaves shaded with the light map's stored irradiance,
-// wood, ground and sky with the sources. OpenImageIO is known in this folder only.
+// Images of a lit forest, in two ways with the same cameras: from a light map (leaves shaded with their
+// stored irradiance, wood, ground and sky with the sources) and path-traced (all bounces, no light map
+// needed), the truth the first is compared with. OpenImageIO is known in this folder only.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +11,7 @@
 
 #include "lighting/base/light_map.h"
 #include "lighting/optics/optics.h"
+#include "lighting/render/picture_look.h"
 #include "lighting/sky/illumination.h"
 #include "sim/base/run_control.h"
 #include "sim/forest/forest.h"
@@ -29,7 +31,7 @@ struct Camera {
   Vec3 up{0, 0, 1};
   double vertical_fov_deg = 40;         // pinhole: (0, 170]
   double ortho_height_m = 30;           // orthographic: > 0
-  int width_px = 640, height_px = 480;  // 1 .. 16384 each
+  int width_px = 640, height_px = 480;  // 1 .. 16384 each, together at most 100 million pixels
   int samples_per_pixel = 4;            // 1 .. 4096
   std::uint64_t seed = 1;
 };
@@ -45,17 +47,44 @@ struct Image {
   std::vector<float> depth_m;             // 1, distance along the ray of the pixel centre; infinity for sky
   std::vector<float> normal;              // 3, world; 0 for sky
   std::vector<float> instance_id;         // 1, instance index; -1 none
-  std::vector<float>
-      irradiance_w_m2;  // 1 per pixel: front + back irradiance of the element seen in band 0; 0 elsewhere
+  std::vector<float> irradiance_w_m2;  // 1 per pixel: front + back irradiance of the element seen in band 0;
+                                       // 0 elsewhere, and everywhere in path-traced pictures
+  int samples_per_pixel = 0;  // taken, of the pixel with fewest
+  bool stopped = false;       // before it was done, see RenderEffort
+};
+// Standard error of a pixel, root mean square over the picture, relative to its mean brightness. Without the
+// brightest hundredth of the pixels, which a picture shows as white: the sun's disc would be all of it.
+double image_noise(const Image& image);
+
+// When a picture is good enough.
+struct RenderEffort {
+  // Above 0: samples are taken until image_noise is at most this, instead of the camera's samples_per_pixel.
+  double noise = 0;
+  int max_samples_per_pixel = 4096;  // for a noise target
+  // Stopped by its RunControl, a render returns the picture of the samples taken so far (stopped = true)
+  // where every pixel has some; else, and by default, it throws Error(kCancelled).
+  bool keep_when_stopped = false;
+};
+
+// Where a picture from a light map takes the sunlight on a leaf from.
+enum class LeafSun {
+  kStored,  // the light map: even over the leaf
+  kTraced   // a shadow ray from the place seen: shadows fall across leaves
 };
 
 struct RenderRequest {
   Camera camera;
-  Illumination light;  // for ground, wood and sky
+  Illumination light;  // for ground, wood and sky; path-traced: for everything
+  PictureLook look{};
+  RenderEffort effort{};
+  LeafSun leaf_sun = LeafSun::kTraced;
 };
+// Throws Error(kInvalidInput) naming "render.<field>" or "camera.<field>".
+void validate(const RenderRequest& request);
 
 // Called with finished 64 x 64 tiles (pixel rectangle inside `image`), from one thread at a time; the rest of
-// the image is still being written.
+// the image is still being written. Each tile comes once; with a noise target or keep_when_stopped once for
+// every round of passes.
 using TileSink = std::function<void(const Image& image, int x0, int y0, int x1, int y1)>;
 
 // `map` must belong to `forest` (sizes and bands checked). A PAR band drives red, green and blue with typical
@@ -64,9 +93,26 @@ using TileSink = std::function<void(const Image& image, int x0, int y0, int x1, 
 Image render(const Forest& forest, const OpticsTable& optics, const LightMap& map,
              const RenderRequest& request, const RunControl& control, const TileSink& tiles = {});
 
-// EXR with layers (R, G, B, depth.Z, normal.X/Y/Z, instance.id, irradiance.Y) and PNG (sRGB, exposed so that
-// the 99th percentile is white). Written beside and renamed. Throw Error(kInputOutput).
+// Path-traced (path_tracer.h): sun, sky and every bounce between leaves, wood and ground. Its error is noise
+// alone, and stated per pixel. Samples come in units of four (fewer below 16 samples), each an independent
+// low-discrepancy set; samples_per_pixel is rounded up to whole units.
+Image render_path_traced(const Forest& forest, const OpticsTable& optics, const RenderRequest& request,
+                         const RunControl& control, const TileSink& tiles = {});
+
+// EXR: linear, with layers (R, G, B, depth.Z, normal.X/Y/Z, instance.id, irradiance.Y, error.Y: the standard
+// error of the channels' mean). Written beside and renamed. Throw Error(kInputOutput).
 void save_exr(const Image& image, const std::filesystem::path& path);
-void save_png(const Image& image, const std::filesystem::path& path);
+
+// How radiance becomes the numbers of a PNG (sRGB).
+enum class ToneCurve {
+  kLinear,  // the 99th percentile is white, what is brighter too
+  kFilmic   // the picture's middle is middle grey; lights roll off towards white as film does
+};
+struct ToneMap {
+  ToneCurve curve = ToneCurve::kLinear;
+  double exposure_stops = 0;  // twice as bright for each
+};
+void save_png(const Image& image, const std::filesystem::path& path, const ToneMap& tone);
+void save_png(const Image& image, const std::filesystem::path& path);  // linear
 
 }  // namespace sunfleck

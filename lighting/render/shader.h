@@ -1,16 +1,19 @@
-// Radiance towards the viewer, as red, green and blue of one band.
+// Radiance towards the viewer from a light map, as red, green and blue of one band, without bounces.
 //
-// Leaves: bi-Lambertian, from the stored irradiance of the element seen (constant over the element):
+// Leaves: bi-Lambertian, from the stored irradiance of the element seen:
 //   seen from the front  L = (r_f E_front + t_b E_back) / pi, from the back likewise, a shoot: mean of both.
+// Sky and scattered light are constant over the element; sunlight is that too (LeafSun::kStored) or asked by
+// one shadow ray from the place seen (kTraced). Scattered light has the colour of MeanLight.
 // Wood and ground have no stored light. L = albedo / pi * (sun through one shadow ray + what kGatherRays
-// cosine-distributed rays meet: the sky, leaves with their stored light, and wood or ground in open light).
-// The last is the only guess: ground and wood met by a gather ray are taken as unshaded.
+// cosine-distributed rays meet: the sky, leaves with their stored light, and wood or ground in the mean light
+// of all wood and ground, mean_light.h; ground beyond the forest's box in the open).
 // Sky: its radiance, and the disc of the sun for who looks at it. A sun of no size has no disc.
 #pragma once
 
 #include "lighting/base/light_map.h"
-#include "lighting/render/picture_colour.h"
-#include "lighting/trace/ray_scene.h"
+#include "lighting/render/mean_light.h"
+#include "lighting/render/render.h"
+#include "lighting/render/surface.h"
 #include "sim/base/random.h"
 
 namespace sunfleck {
@@ -18,36 +21,42 @@ namespace sunfleck {
 inline constexpr int kGatherSide = 2;
 inline constexpr int kGatherRays = kGatherSide * kGatherSide;
 
+// What shading needs to know. All must outlive the shader; sizes of map and forest match.
+struct ShadingParts {
+  const PictureScene& scene;
+  const ForestIndex& index;
+  const BandLightMap& map;
+  const SurfaceTable& surfaces;
+  const PictureLight& light;
+  PictureColour colour;
+  LeafSun leaf_sun = LeafSun::kTraced;
+};
+
+// Const and safe from many threads.
 class Shader {
  public:
-  // All must outlive it; sizes of map, forest and light match. Const and safe from many threads.
-  Shader(const Forest& forest, const ForestIndex& index, const OpticsTable& optics, const LightMap& map,
-         const Illumination& light, const RayScene& scene);
+  Shader(const ShadingParts& parts, const MeanLight& mean) : parts_(parts), mean_(mean) {}
 
   // What comes along a camera ray that met `hit`.
   Vec3 radiance(const RayHit& hit, const Vec3& direction, RandomStream& random) const;
+  // What a gather ray that met `hit` brings: no ray is cast for it.
+  Vec3 gathered(const RayHit& hit, const Vec3& direction) const;
+  // Irradiance of the side of wood or ground that was met.
+  Vec3 irradiance(const RayHit& hit, RandomStream& random) const;
   std::size_t element_of(const RayHit& hit) const;
 
  private:
-  Vec3 leaf(const RayHit& hit) const;
-  Vec3 opaque(const RayHit& hit, double albedo, const Vec3& exponent, RandomStream& random) const;
-  Vec3 gathered(const RayHit& hit, const Vec3& direction) const;  // what a gather ray brings
-  Vec3 in_the_open(const RayHit& hit, double albedo, const Vec3& exponent) const;
-  Vec3 sun_irradiance(const RayHit& hit, RandomStream& random) const;
-  Vec3 sky(const Vec3& direction) const;
-  Vec3 background(const Vec3& direction) const;
-  double bark_albedo(const RayHit& hit) const;
-  Vec3 channels(const FaceLight& light) const;
+  Vec3 leaf_seen(const RayHit& hit, const Vec3& to_viewer, RandomStream& random) const;
+  Vec3 leaf_stored(const RayHit& hit) const;
+  Vec3 shoot_stored(const RayHit& hit) const;
+  Vec3 sun_scattered(const RayHit& hit, const Surface& surface, const Vec3& to_viewer,
+                     RandomStream& random) const;
+  Vec3 diffuse(const FaceLight& light) const;
+  Vec3 total(const FaceLight& light) const;
+  const ElementLight& light_of(const RayHit& hit) const;
 
-  const Forest& forest_;
-  const ForestIndex& index_;
-  const OpticsTable& optics_;
-  const LightMap& map_;
-  const Illumination& light_;
-  const SkyRadiance sky_;
-  const RayScene& scene_;
-  std::size_t band_;
-  PictureColour colour_;
+  ShadingParts parts_;
+  MeanLight mean_;
 };
 
 }  // namespace sunfleck

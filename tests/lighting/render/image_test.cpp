@@ -56,7 +56,7 @@ Image numbered_image() {
   for (int p = 0; p < 15; ++p) {
     const auto f = static_cast<float>(p);
     image.rgb.insert(image.rgb.end(), {f + 0.1f, f + 0.2f, 1e6f + f});
-    image.rgb_standard_error.push_back(0.0f);
+    image.rgb_standard_error.push_back(0.01f * f);
     image.depth_m.push_back(p == 7 ? std::numeric_limits<float>::infinity() : 100.0f / (f + 1));
     image.normal.insert(image.normal.end(), {f / 15, -f / 15, 1 - f / 15});
     image.instance_id.push_back(1000003.0f * f - 1);
@@ -74,15 +74,15 @@ TEST(Exr, HasTheLayersAndKeepsEveryBit) {
   const OIIO::ImageSpec spec = input->spec();
   EXPECT_EQ(spec.width, 5);
   EXPECT_EQ(spec.height, 3);
-  ASSERT_EQ(spec.nchannels, 9);
-  std::vector<float> pixels(15 * 9);
-  ASSERT_TRUE(input->read_image(0, 0, 0, 9, OIIO::TypeDesc::FLOAT, pixels.data()));
+  ASSERT_EQ(spec.nchannels, 10);
+  std::vector<float> pixels(15 * 10);
+  ASSERT_TRUE(input->read_image(0, 0, 0, 10, OIIO::TypeDesc::FLOAT, pixels.data()));
   const auto expect_layer = [&](const char* name, const std::vector<float>& values, std::size_t stride,
                                 std::size_t offset) {
     const int channel = spec.channelindex(name);
     ASSERT_GE(channel, 0) << name;
     for (std::size_t p = 0; p < 15; ++p)
-      EXPECT_EQ(pixels[9 * p + static_cast<std::size_t>(channel)], values[stride * p + offset])
+      EXPECT_EQ(pixels[10 * p + static_cast<std::size_t>(channel)], values[stride * p + offset])
           << name << " pixel " << p;
   };
   expect_layer("R", image.rgb, 3, 0);
@@ -94,6 +94,7 @@ TEST(Exr, HasTheLayersAndKeepsEveryBit) {
   expect_layer("normal.Z", image.normal, 3, 2);
   expect_layer("instance.id", image.instance_id, 1, 0);
   expect_layer("irradiance.Y", image.irradiance_w_m2, 1, 0);
+  expect_layer("error.Y", image.rgb_standard_error, 1, 0);
 }
 
 // 200 pixels of 0.5, 50 of 1, one of 1000: the 99th percentile is 1, so 1 is white, 1000 too, and 0.5 is
@@ -132,7 +133,8 @@ TEST(Png, ABlackPictureIsBlack) {
 TEST(ImageFiles, UnwritablePathsAreNamedAndNothingIsLeft) {
   const fs::path folder = test::scratch_dir() / "images";
   fs::create_directories(folder / "taken.png");
-  for (const auto& save : {save_exr, save_png})
+  using Save = void (*)(const Image&, const fs::path&);
+  for (const Save save : {Save{save_exr}, Save{save_png}})
     for (const char* name : {"taken.png", "no_such_folder/picture.png"}) {
       const fs::path path = folder / name;
       try {

@@ -11,6 +11,9 @@ struct RenderScene {
   OpticsRequest optics_request{.bands = {"NIR"}, .soil_albedo = {0.2}, .overrides = {}};
   Illumination light;
   FaceLight front{}, back{};  // of every element
+  PictureLook look = plain_look();
+  RenderEffort effort{};
+  LeafSun leaf_sun = LeafSun::kStored;
 
   RenderScene() {
     forest.materials = {{"leaf", {{"NIR", 0.5, 0.5, 1.0}, {"PAR", 0.5, 0.5, 1.0}}}};
@@ -41,8 +44,12 @@ struct RenderScene {
   }
 
   Image render(const Camera& camera, const RunControl& control = {}, const TileSink& tiles = {}) const {
-    return sunfleck::render(forest, OpticsTable(forest, optics_request), map(), {camera, light}, control,
-                            tiles);
+    return sunfleck::render(forest, OpticsTable(forest, optics_request), map(),
+                            {camera, light, look, effort, leaf_sun}, control, tiles);
+  }
+  Image render_path_traced(const Camera& camera, const RunControl& control = {}) const {
+    return sunfleck::render_path_traced(forest, OpticsTable(forest, optics_request),
+                                        {camera, light, look, effort, leaf_sun}, control);
   }
 };
 

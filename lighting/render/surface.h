@@ -1,0 +1,47 @@
+// What a ray met, as red, green and blue of the picture's band: the one place that turns optics, textures and
+// patterns into numbers, for both render modes.
+#pragma once
+
+#include "lighting/optics/optics.h"
+#include "lighting/render/picture_light.h"
+#include "lighting/render/picture_scene.h"
+
+namespace sunfleck {
+
+// Radiance towards the ray's origin of light from direction w:
+//   w on the side met:  reflect / pi  (of which share `gloss` in a lobe around the mirror direction)
+//   w on the other:     pass / pi
+//   a shoot:            (reflect + pass) / (4 pi) from everywhere, no cosine: needles point everywhere.
+struct Surface {
+  Vec3 reflect{0}, pass{0};
+  Vec3 normal{0, 0, 1};  // unit, of the geometry, on the side met
+  bool is_shoot = false;
+  double gloss = 0;
+  Vec3 gloss_normal{0, 0, 1};
+  double gloss_exponent = 20;
+};
+
+// Scattered radiance per incident radiance and solid angle times cosine, towards `to_viewer`.
+Vec3 scattering(const Surface& surface, const Vec3& from_light, const Vec3& to_viewer);
+
+class SurfaceTable {
+ public:
+  // All must outlive it.
+  SurfaceTable(const PictureScene& scene, const OpticsTable& optics, std::size_t band,
+               const PictureColour& colour, const PictureLook& look);
+  // For hits on leaves, wood and the upper side of the ground.
+  Surface at(const RayHit& hit) const;
+
+ private:
+  Surface leaf(const RayHit& hit) const;
+  Surface wood(const RayHit& hit) const;
+  Surface ground(const RayHit& hit) const;
+
+  const PictureScene& scene_;
+  const OpticsTable& optics_;
+  std::size_t band_;
+  PictureColour colour_;
+  const PictureLook& look_;
+};
+
+}  // namespace sunfleck
