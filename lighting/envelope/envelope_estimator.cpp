@@ -9,6 +9,7 @@
 #include "lighting/envelope/envelope_estimator.h"
 
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 #include "lighting/base/summaries.h"
@@ -25,6 +26,8 @@ namespace sunfleck {
 namespace {
 
 using namespace envelope;
+
+constexpr std::uint64_t kBytesPerCell = 32;  // of the leaf-area grid, about
 
 void check_request(const ForestIndex& index, const EnvelopeOptions& options) {
   if (index.element_count() == 0)
@@ -70,7 +73,7 @@ void evaluate(const Forest& forest, const ForestIndex& index, const BlockerField
                  });
 }
 
-LightMap empty_map(const Forest& forest, const ForestIndex& index, const OpticsTable& optics) {
+LightMap empty_map(const ForestIndex& index, const OpticsTable& optics, const std::string& forest_hash) {
   LightMap map;
   map.sunlit_fraction.resize(index.element_count());
   for (const std::string& band : optics.bands()) {
@@ -80,7 +83,7 @@ LightMap empty_map(const Forest& forest, const ForestIndex& index, const OpticsT
   }
   map.provenance.method = "envelope";
   map.provenance.version = kVersion;
-  map.provenance.forest_hash = content_hash(forest);
+  map.provenance.forest_hash = forest_hash;
   return map;
 }
 
@@ -90,16 +93,29 @@ void add_notes(Provenance& provenance, const std::vector<std::string>& notes) {
 
 }  // namespace
 
-LightMap envelope_light_map(const Forest& forest, const OpticsTable& optics, const Illumination& illumination,
-                            const EnvelopeOptions& options, const RunControl& control) {
-  const Illumination light = checked(illumination, optics.band_count());
-  validate(forest);
-  const ForestIndex index(forest);
-  check_request(index, options);
-  LightMap map = empty_map(forest, index, optics);
-  Provenance& provenance = map.provenance;
-  const bool sun = needs_sun(light, provenance);
+namespace envelope {
 
+struct PublishedDepths {
+  BlockerField field;
+  MarchedSectors sectors;
+};
+
+}  // namespace envelope
+
+std::uint64_t EnvelopeSectors::bytes() const {
+  const std::uint64_t elements = depths->sectors.depths.size();
+  return elements * (sizeof(depths->sectors.depths[0]) + sizeof(FieldElement)) +
+         depths->field.layout().cell_count() * kBytesPerCell;
+}
+
+EnvelopeSectors prepare_envelope_sectors(const Forest& forest, const EnvelopeOptions& options,
+                                         const RunControl& control) {
+  validate(forest);
+  check_request(ForestIndex(forest), options);
+  Provenance provenance;
+  EnvelopeSectors prepared;
+  prepared.cell_m = options.cell_m;
+  prepared.forest_hash = content_hash(forest);
   std::optional<BlockerField> field;
   {
     const StageTimer timer(provenance, "leaf-area grid");
@@ -110,21 +126,46 @@ LightMap envelope_light_map(const Forest& forest, const OpticsTable& optics, con
     const StageTimer timer(provenance, "sector depths");
     sectors = march_sectors(*field, control);
   }
+  prepared.depths = std::make_shared<const PublishedDepths>(PublishedDepths{std::move(*field), std::move(sectors)});
+  prepared.times = std::move(provenance.times);
+  return prepared;
+}
+
+LightMap envelope_light_map(const Forest& forest, const OpticsTable& optics, const Illumination& illumination,
+                            const EnvelopeOptions& options, const EnvelopeSectors& prepared,
+                            const RunControl& control) {
+  SUNFLECK_EXPECTS(prepared.depths != nullptr && prepared.cell_m == options.cell_m);
+  const Illumination light = checked(illumination, optics.band_count());
+  const ForestIndex index(forest);
+  const auto& [field, sectors] = *prepared.depths;
+  SUNFLECK_EXPECTS(sectors.depths.size() == index.element_count());
+  LightMap map = empty_map(index, optics, prepared.forest_hash);
+  Provenance& provenance = map.provenance;
+  const bool sun = needs_sun(light, provenance);
   std::vector<float> sun_depth;
   if (sun) {
     const StageTimer timer(provenance, "sun depths");
-    sun_depth = sun_depths(*field, sectors.depths, light.to_sun, options.sun, control);
+    sun_depth = sun_depths(field, sectors.depths, light.to_sun, options.sun, control);
   }
   {
     const StageTimer timer(provenance, "evaluation");
-    const SectorLight sector = sector_light(forest, optics, light, *field, options.sun, sun);
-    evaluate(forest, index, *field, sectors.depths, sun_depth, sector, control, map);
+    const SectorLight sector = sector_light(forest, optics, light, field, options.sun, sun);
+    evaluate(forest, index, field, sectors.depths, sun_depth, sector, control, map);
   }
   summarize(forest, index, optics, map);
-  state_settings(provenance, options, *field);
-  add_notes(provenance, scene_notes(forest, *field, sectors));
-  add_notes(provenance, missing_bounce_notes(forest, optics, *field, sectors.depths));
+  state_settings(provenance, options, field);
+  add_notes(provenance, scene_notes(forest, field, sectors));
+  add_notes(provenance, missing_bounce_notes(forest, optics, field, sectors.depths));
   SUNFLECK_ENSURES(find_violation(map, index).empty());
+  return map;
+}
+
+LightMap envelope_light_map(const Forest& forest, const OpticsTable& optics, const Illumination& illumination,
+                            const EnvelopeOptions& options, const RunControl& control) {
+  const Illumination light = checked(illumination, optics.band_count());
+  const EnvelopeSectors prepared = prepare_envelope_sectors(forest, options, control);
+  LightMap map = envelope_light_map(forest, optics, light, options, prepared, control);
+  map.provenance.times.insert(map.provenance.times.begin(), prepared.times.begin(), prepared.times.end());
   return map;
 }
 

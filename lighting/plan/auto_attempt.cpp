@@ -9,7 +9,7 @@
 namespace sunfleck {
 namespace {
 
-// A correction must lower the RMS on probes it has not seen by more than this share.
+// A correction must lower the RMS on probes it has not seen by more than this share, and one more term again.
 constexpr double kWorthCorrecting = 0.01;
 
 std::vector<LightParts> truths(const ProbeSet& probes, std::size_t band) {
@@ -107,7 +107,7 @@ Fitted best_fit(const ProbeSet& probes, const LightMap& whole, std::size_t band,
     if (!held_out || !correction) continue;
     const double after = error_to_lower(probes, *held_out, map, band, diffuse_only).element_rms;
     if (after >= lowest) continue;
-    lowest = after;
+    lowest = (1.0 - kWorthCorrecting) * after;
     best = {correction, *held_out};
   }
   return best;

@@ -33,33 +33,33 @@ std::size_t term_count(CorrectionForm form) {
 Terms terms_of(CorrectionForm form, const LightParts& e, const LightParts& truth) {
   switch (form) {
     case CorrectionForm::kTotal:
-      return {{1.0, e.total()}, truth.total()};
+      return {{e.total(), 1.0}, truth.total()};
     case CorrectionForm::kDiffuse:
-      return {{1.0, e.diffuse()}, truth.diffuse()};
+      return {{e.diffuse(), 1.0}, truth.diffuse()};
     case CorrectionForm::kDiffuseParts:
-      return {{1.0, e.sky_w_m2, e.scattered_w_m2}, truth.diffuse()};
+      return {{e.sky_w_m2, e.scattered_w_m2, 1.0}, truth.diffuse()};
     case CorrectionForm::kDiffuseBySun:
-      return {{1.0, e.diffuse(), e.sunlit}, truth.diffuse()};
+      return {{e.diffuse(), e.sunlit, 1.0}, truth.diffuse()};
     case CorrectionForm::kParts:
       break;
   }
-  return {{1.0, e.direct_w_m2, e.sky_w_m2, e.scattered_w_m2}, truth.total()};
+  return {{e.direct_w_m2, e.sky_w_m2, e.scattered_w_m2, 1.0}, truth.total()};
 }
 
 Correction correction_of(CorrectionForm form, const std::array<double, kMostTerms>& c) {
   switch (form) {
     case CorrectionForm::kTotal:
-      return {c[0], c[1], c[1], c[1]};
+      return {c[1], c[0], c[0], c[0]};
     case CorrectionForm::kDiffuse:
-      return {c[0], 1.0, c[1], c[1]};
+      return {c[1], 1.0, c[0], c[0]};
     case CorrectionForm::kDiffuseParts:
-      return {c[0], 1.0, c[1], c[2]};
+      return {c[2], 1.0, c[0], c[1]};
     case CorrectionForm::kDiffuseBySun:
-      return {c[0], 1.0, c[1], c[1], c[2]};
+      return {c[2], 1.0, c[0], c[0], c[1]};
     case CorrectionForm::kParts:
       break;
   }
-  return {c[0], c[1], c[2], c[3]};
+  return {c[3], c[0], c[1], c[2]};
 }
 
 // Normal equations A c = b.
@@ -74,8 +74,8 @@ struct NormalEquations {
     }
   }
 
-  // Elimination with the constant first; a term that the earlier ones explain to 1e-9 (a part that is 0
-  // everywhere, or a constant) is left out: its coefficient is 0.
+  // Elimination with the constant last; a term that the earlier ones explain to 1e-9 (a part that is 0
+  // everywhere, or the constant where light is the same on all) is left out: its coefficient is 0.
   std::array<double, kMostTerms> solve(std::size_t terms) const {
     auto m = a;
     auto rest = b;

@@ -15,8 +15,4 @@ namespace sunfleck {
 std::shared_ptr<const SunExposure> sun_exposure(const LightScene& scene, const Illumination& light,
                                                 const SunRasterOptions& options, const RunControl& control);
 
-// Replaces direct light and sunlit fractions; everything else stays, sums are not updated, budgets go.
-void set_direct(const LightScene& scene, const Illumination& light, const SunExposure& exposure,
-                LightMap& map, const RunControl& control);
-
 }  // namespace sunfleck

@@ -2,24 +2,36 @@
 #pragma once
 
 #include <functional>
+#include <span>
 
+#include "lighting/plan/auto_cost.h"
 #include "lighting/plan/auto_options.h"
 #include "lighting/plan/light_request.h"
 #include "lighting/plan/light_scene.h"
 
 namespace sunfleck {
 
-// Runs the method that the request names.
-using MethodRunner = std::function<LightMap(const LightRequest&)>;
+// Runs the method that the request names. `sunlit_fraction`: of every element, where it is known already (for
+// grid and links); else empty.
+using MethodRunner =
+    std::function<LightMap(const LightRequest&, std::span<const float> sunlit_fraction, const RunControl&)>;
 
-// Probes first, then one method after the other, cheapest first: as it is or corrected by regression on the
-// probes (judged on probes it was not fitted to), then with direct sun by shadow rays where the probes say
-// that this will do, at last the reference. The first whose measured error is within the tolerance is the
-// answer; if none is, the one with the smallest, and a note says so. What was tried, what was measured
-// (with 95 % intervals) and any correction stands in the provenance's settings.
-// `light` as returned by checked().
+// By tolerance: probes first, then one method after the other, that with the least expected cost first (see
+// auto_rungs.h): `grid` as it is or with the sun drawn (lighting/trace/sun_raster.h), `links` with the sun
+// drawn, at last the reference; each corrected by regression on the probes where that helps (judged on probes
+// it was not fitted to). The first whose measured error is within the tolerance is the answer; if none is,
+// the one with the smallest, and a note says so.
+//
+// By time: the same probes, then the best rung that the cost model fits into what is left. Rays are not
+// started without a cheaper answer at hand and are stopped at the end of the time; a grid that takes longer
+// than predicted is finished. Notes say both. Throws Error(kInvalidInput) naming "auto.time_s" before any
+// work where the time is far too short.
+//
+// What was tried, what was measured (with 95 % intervals) and any correction stands in the provenance's
+// settings. `light` as returned by checked(); `sizes` those of the forest.
 LightMap auto_light_map(const LightScene& scene, const OpticsTable& optics, const Illumination& light,
-                        const LightRequest& request, const MethodRunner& run, const RunControl& control);
+                        const LightRequest& request, const SceneSizes& sizes, const MethodRunner& run,
+                        const RunControl& control);
 
 // Measures the error of a finished map by probes and adds it to its provenance's settings:
 //   measured_bias.<band>, measured_element_rms.<band>   "value [low, high]", relative, 95 % intervals

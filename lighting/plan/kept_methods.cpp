@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <span>
 #include <utility>
 
 #include "lighting/base/summaries.h"
@@ -40,6 +41,10 @@ PreparedKey envelope_key(const EnvelopeFullOptions& o) {
       .add("cell_m", o.cell_m);
 }
 
+PreparedKey sectors_key(const EnvelopeOptions& o) {
+  return PreparedKey("envelope sectors").add("cell_m", o.cell_m);
+}
+
 PreparedKey links_key(std::string_view what, const LinksOptions& o) {
   return PreparedKey(what)
       .add("seed", o.seed)
@@ -58,18 +63,32 @@ PreparedKey world_key(const WorldOptions& o) {
 constexpr int kSunRaysOfWoodAndGround = 4;
 
 // Replaces what a few rays say of leaves by what the sun sees of them.
-void draw_foliage(const LightScene& scene, const Illumination& light, const LinksOptions& options,
-                  links::DirectLight& direct, const RunControl& control) {
-  if (!light.sun_is_up()) return;
-  const auto drawn = sun_exposure(scene, light, {.ground = options.ground, .seed = options.seed}, control);
-  direct.sunlit_fraction = drawn->sunlit_fraction;
-  for (std::size_t e = 0; e < drawn->sunlit_fraction.size(); ++e) {
+void light_foliage(const LightScene& scene, const Illumination& light, std::span<const float> sunlit_fraction,
+                   links::DirectLight& direct, const RunControl& control) {
+  direct.sunlit_fraction.assign(sunlit_fraction.begin(), sunlit_fraction.end());
+  for (std::size_t e = 0; e < sunlit_fraction.size(); ++e) {
     if (e % 65536 == 0) control.check();
     const auto place = scene.index.place(e);
     const BeamOnFaces beam = beam_on_faces(scene.forest, place.instance, place.local, light.to_sun);
-    direct.on_face[2 * e] = static_cast<float>(beam.front * drawn->sunlit_fraction[e]);
-    direct.on_face[2 * e + 1] = static_cast<float>(beam.back * drawn->sunlit_fraction[e]);
+    direct.on_face[2 * e] = static_cast<float>(beam.front * sunlit_fraction[e]);
+    direct.on_face[2 * e + 1] = static_cast<float>(beam.back * sunlit_fraction[e]);
   }
+}
+
+// Of wood and ground, and of leaves by the same few rays.
+links::DirectLight sun_by_few_rays(const LinksPrepared& prepared, const Illumination& light,
+                                   const LinksOptions& options, const RunControl& control) {
+  LinksOptions few = options;
+  few.sun_rays_per_element = std::min(options.sun_rays_per_element, kSunRaysOfWoodAndGround);
+  return links_direct_light(prepared, light, few, control);
+}
+
+std::shared_ptr<const links::DirectLight> given_links_sun(
+    const LightScene& scene, const LinksPrepared& prepared, const Illumination& light,
+    const LinksOptions& options, std::span<const float> sunlit_fraction, const RunControl& control) {
+  auto direct = std::make_shared<links::DirectLight>(sun_by_few_rays(prepared, light, options, control));
+  light_foliage(scene, light, sunlit_fraction, *direct, control);
+  return direct;
 }
 
 std::shared_ptr<const links::DirectLight> kept_links_sun(const LightScene& scene,
@@ -84,10 +103,13 @@ std::shared_ptr<const links::DirectLight> kept_links_sun(const LightScene& scene
           .add("sun_rays", options.sun_rays_per_element),
       control,
       [&] {
-        LinksOptions few = options;
-        few.sun_rays_per_element = std::min(options.sun_rays_per_element, kSunRaysOfWoodAndGround);
-        auto direct = std::make_shared<links::DirectLight>(links_direct_light(prepared, light, few, control));
-        draw_foliage(scene, light, options, *direct, control);
+        auto direct =
+            std::make_shared<links::DirectLight>(sun_by_few_rays(prepared, light, options, control));
+        if (light.sun_is_up()) {
+          const auto drawn =
+              sun_exposure(scene, light, {.ground = options.ground, .seed = options.seed}, control);
+          light_foliage(scene, light, drawn->sunlit_fraction, *direct, control);
+        }
         return std::shared_ptr<const links::DirectLight>(std::move(direct));
       },
       [](const links::DirectLight& d) {
@@ -135,8 +157,29 @@ LightMap kept_envelope_light_map(const LightScene& scene, const OpticsTable& opt
   return map;
 }
 
+LightMap kept_envelope_light_map(const LightScene& scene, const OpticsTable& optics,
+                                 const Illumination& light, const EnvelopeOptions& options,
+                                 const RunControl& control) {
+  Provenance before;
+  std::shared_ptr<const EnvelopeSectors> sectors;
+  {
+    const StageTimer timer(before, "sector depths");
+    sectors = scene.store.get<EnvelopeSectors>(
+        sectors_key(options), control,
+        [&] {
+          return std::make_shared<const EnvelopeSectors>(
+              prepare_envelope_sectors(scene.forest, options, control));
+        },
+        [](const EnvelopeSectors& s) { return s.bytes(); });
+  }
+  LightMap map = envelope_light_map(scene.forest, optics, light, options, *sectors, control);
+  add_times(map, before.times);
+  return map;
+}
+
 LightMap kept_links_light_map(const LightScene& scene, const OpticsTable& optics, const Illumination& light,
-                              const LinksOptions& options, const RunControl& control) {
+                              const LinksOptions& options, std::span<const float> sunlit_fraction,
+                              const RunControl& control) {
   Provenance before;
   std::shared_ptr<const LinksPrepared> prepared;
   {
@@ -149,7 +192,9 @@ LightMap kept_links_light_map(const LightScene& scene, const OpticsTable& optics
   std::shared_ptr<const links::DirectLight> sun;
   {
     const StageTimer timer(before, "tracing sun");
-    sun = kept_links_sun(scene, *prepared, light, options, control);
+    sun = sunlit_fraction.empty()
+              ? kept_links_sun(scene, *prepared, light, options, control)
+              : given_links_sun(scene, *prepared, light, options, sunlit_fraction, control);
   }
   LightMap map = links_light_map(scene.forest, optics, light, options, *prepared, *sun, control);
   add_times(map, before.times);

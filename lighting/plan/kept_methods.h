@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "lighting/plan/light_request.h"
@@ -18,9 +19,15 @@ LightMap kept_envelope_light_map(const LightScene& scene, const OpticsTable& opt
                                  const RunControl& control);
 
 // Direct light of leaves by drawing the forest as the sun sees it (sun_raster.h), of wood and ground by a few
-// shadow rays.
+// shadow rays. `sunlit_fraction`: of every element, drawn before; empty: drawn here and kept.
 LightMap kept_links_light_map(const LightScene& scene, const OpticsTable& optics, const Illumination& light,
-                              const LinksOptions& options, const RunControl& control);
+                              const LinksOptions& options, std::span<const float> sunlit_fraction,
+                              const RunControl& control);
+
+// The published envelope.
+LightMap kept_envelope_light_map(const LightScene& scene, const OpticsTable& optics,
+                                 const Illumination& light, const EnvelopeOptions& options,
+                                 const RunControl& control);
 
 // The world grid once, then the leaves of these instances one tree after the other: elements and trees in
 // that order, TreeLight::instance counting them.

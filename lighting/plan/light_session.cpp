@@ -141,11 +141,13 @@ LightMap LightSession::compute(const LightRequest& request, const CostOptions& c
   const LightScene scene = this->scene(threads_of(cost));
   LightMap map;
   with_threads(cost.threads, [&] {
-    const auto run = [&](const LightRequest& asked) {
-      return run_method(scene, seen, plan.light, with_bounces(asked, plan), control);
+    const auto run = [&](const LightRequest& asked, std::span<const float> sunlit_fraction,
+                         const RunControl& until) {
+      return run_method(scene, seen, plan.light, with_bounces(asked, plan), sunlit_fraction, until);
     };
-    map = request.method == Method::kAuto ? auto_light_map(scene, optics, plan.light, request, run, control)
-                                          : run(request);
+    map = request.method == Method::kAuto
+              ? auto_light_map(scene, optics, plan.light, request, plan.sizes, run, control)
+              : run(request, {}, control);
     if (bounces_skipped(plan)) take_true_optics(scene, optics, plan, map);
     if (request.probes && request.method != Method::kAuto)
       add_error_bars(scene, optics, plan.light, *request.probes, request.reference.ground, map, control);

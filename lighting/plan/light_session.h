@@ -4,7 +4,7 @@
 //   ray scene, receivers        nothing but the forest (and whether there is ground)
 //   hit matrix of `reference`   seed, rays, sky model
 //   sun rays of `reference`     seed, rays, sun direction and disc
-//   depths, sectors, links, world grid of spp.., envelope_full, links, world: their own knobs
+//   depths, sectors, links, world grid of spp.., envelope.., links, world: their own knobs
 //   leaf-area grid of `grid`    directions, cells; its sun: direction; its sky: model
 //   sun exposure of `auto`      sun direction and disc, precision, seed
 //

@@ -6,13 +6,13 @@
 
 #include "lighting/plan/auto_cost.h"
 #include "lighting/trace/hit_matrix.h"
+#include "lighting/transport/grid_limits.h"
 #include "sim/base/error.h"
 
 namespace sunfleck {
 namespace {
 
 constexpr double kDarkAlbedo = 0.02, kOneBounceAlbedo = 0.1, kOpenView = 0.05;
-constexpr double kGiB = 1024.0 * 1024.0 * 1024.0;
 
 std::string number(double x) {
   std::ostringstream text;
@@ -152,18 +152,6 @@ std::vector<Ball> balls(const Forest& forest, const ForestIndex& index) {
   return all;
 }
 
-void check_grid_fits(const SceneSizes& sizes, const LightRequest& request) {
-  constexpr double kMostBytes = 1.5 * kGiB;  // what the grid method allows itself
-  const double cells = cells_of_grid(sizes, request.grid.cell_m);
-  const double bytes = static_cast<double>(grid_bytes(cells, request.grid.directions));
-  if (!(request.grid.cell_m > 0.0) || bytes <= 2.0 * kMostBytes) return;
-  const double fits_m = request.grid.cell_m * std::cbrt(bytes / kMostBytes);
-  throw Error(ErrorKind::kLimitExceeded, "grid.cell_m",
-              "cells of " + number(request.grid.cell_m) + " m make a grid of about " + number(bytes / kGiB) +
-                  " GiB, over " + number(kMostBytes / kGiB) + " GiB",
-              "about " + number(fits_m) + " m or more, or 0 to have it chosen");
-}
-
 double predicted_seconds(const LightRequest& request, const SceneSizes& sizes, std::size_t bands, bool sun) {
   const ReferenceOptions& r = request.reference;
   switch (request.method) {
@@ -173,9 +161,9 @@ double predicted_seconds(const LightRequest& request, const SceneSizes& sizes, s
       return grid_s(sizes, request.grid, bands);
     case Method::kAuto: {
       if (request.automatic.time_s) return *request.automatic.time_s;
-      const auto rungs = grid_rungs(sizes, request.grid, request.automatic.aim());
+      constexpr double kUsualPixel = 0.1;
       return ray_scene_s(sizes) + probes_s(request.probes.value_or(ProbePlan{}), bands, false) +
-             grid_s(sizes, rungs.front(), bands) + (sun ? sun_drawing_s(sizes, 0.08) : 0.0);
+             grid_s(sizes, request.grid, bands) + (sun ? sun_drawing_s(sizes, kUsualPixel) : 0.0);
     }
     default:
       return 4e-6 * sizes.elements * (0.8 + 0.2 * static_cast<double>(bands));
@@ -212,6 +200,15 @@ std::optional<double> largest_view_of_others(const Forest& forest, const ForestI
   return std::min(1.0, largest);
 }
 
+namespace {
+
+double bytes_of_grid(double elements, double cells, int directions) {
+  return static_cast<double>(
+      grid_bytes(static_cast<std::uint64_t>(cells), static_cast<std::uint64_t>(elements), directions));
+}
+
+}  // namespace
+
 double predicted_bytes(const LightRequest& request, double elements, double wood_faces, double cells) {
   const double bands = static_cast<double>(request.optics.bands.size());
   const double maps = elements * bands * (sizeof(ElementLight) + 4.0) * 2;
@@ -228,12 +225,12 @@ double predicted_bytes(const LightRequest& request, double elements, double wood
                   ? std::min(limit, 1.5 * hits(request.reference.max_rays_per_face))
                   : hits(request.reference.rays_per_face));
     case Method::kGrid:
-      return maps + 200.0 * elements + static_cast<double>(grid_bytes(cells, request.grid.directions));
+      return maps + bytes_of_grid(elements, cells, request.grid.directions);
     case Method::kAuto: {
       // Rays for the tolerance if it comes to the reference: about 0.75 / sqrt(rays) on clumped crowns.
       const double rays = std::pow(0.75 / (0.9 * request.automatic.aim()), 2.0);
       const double stored = std::min(limit, 3.0 * hits(static_cast<int>(std::clamp(rays, 16.0, 4096.0))));
-      return 2.0 * maps + rays_and_scene + std::max(stored, static_cast<double>(grid_bytes(cells, 26)));
+      return 2.0 * maps + rays_and_scene + std::max(stored, bytes_of_grid(elements, cells, 26));
     }
     default:
       return maps + 300.0 * elements;
@@ -248,8 +245,10 @@ Plan make_plan(const Forest& forest, const ForestIndex& index, const LightReques
   plan.method = request.method;
   plan.light = checked(request.light, optics.band_count());
   plan.optics = request.optics;
-  const SceneSizes sizes = scene_sizes(forest);
-  if (request.method == Method::kGrid || request.method == Method::kAuto) check_grid_fits(sizes, request);
+  plan.sizes = scene_sizes(forest);
+  const SceneSizes& sizes = plan.sizes;
+  if ((request.method == Method::kGrid || request.method == Method::kAuto) && request.grid.cell_m > 0.0)
+    check_grid_fits(forest, request.grid);
   skip_idle_sources(plan);
   if (request.skip == Skipping::kAuto)
     BounceSkips(forest, index, optics, request.reference.ground, plan).find();

@@ -21,6 +21,7 @@
 #include <string>
 #include <vector>
 
+#include "lighting/plan/auto_cost.h"
 #include "lighting/plan/light_request.h"
 
 namespace sunfleck {
@@ -38,6 +39,7 @@ struct Plan {
   Illumination light;
   OpticsRequest optics;
   bool one_bounce = false;
+  SceneSizes sizes;
   double predicted_s = 0;      // of one core, within a factor of about 2
   double predicted_bytes = 0;  // at most, beside the forest
 };

@@ -22,7 +22,8 @@ EnvelopeOptions envelope_options(const LightRequest& request, EnvelopeSun sun) {
 }  // namespace
 
 LightMap run_method(const LightScene& scene, const OpticsTable& optics, const Illumination& light,
-                    const LightRequest& request, const RunControl& control) {
+                    const LightRequest& request, std::span<const float> sunlit_fraction,
+                    const RunControl& control) {
   const Forest& forest = scene.forest;
   switch (request.method) {
     case Method::kReference:
@@ -41,15 +42,15 @@ LightMap run_method(const LightScene& scene, const OpticsTable& optics, const Il
     case Method::kEnvelopeFull:
       return kept_envelope_light_map(scene, optics, light, request.envelope_full, control);
     case Method::kLinks:
-      return kept_links_light_map(scene, optics, light, request.links, control);
+      return kept_links_light_map(scene, optics, light, request.links, sunlit_fraction, control);
     case Method::kEnvelope:
-      return envelope_light_map(forest, optics, light, envelope_options(request, EnvelopeSun::kPublished),
-                                control);
+      return kept_envelope_light_map(scene, optics, light, envelope_options(request, EnvelopeSun::kPublished),
+                                     control);
     case Method::kEnvelopeMarched:
-      return envelope_light_map(forest, optics, light, envelope_options(request, EnvelopeSun::kMarched),
-                                control);
+      return kept_envelope_light_map(scene, optics, light, envelope_options(request, EnvelopeSun::kMarched),
+                                     control);
     case Method::kGrid:
-      return kept_grid_light_map(scene, optics, light, request.grid, control);
+      return kept_grid_light_map(scene, optics, light, request.grid, sunlit_fraction, control);
     case Method::kWorld:  // knows which trees are asked for: LightSession
     case Method::kAuto:   // chooses among the others: auto_light_map()
       break;

@@ -181,4 +181,17 @@ GridSuitability grid_suitability(const Forest& forest, const GridOptions& option
   return s;
 }
 
+void check_grid_fits(const Forest& forest, const GridOptions& options) {
+  check_grid_options(options);
+  if (!(options.cell_m > 0.0)) return;
+  const GridSuitability s = grid_suitability(forest, options);
+  if (s.fits) return;
+  std::ostringstream problem, remedy;
+  problem << "cells of " << options.cell_m << " m need " << s.bytes << " bytes (" << s.cells
+          << " cells); the limit is " << options.memory_limit_bytes;
+  remedy << "at least " << s.smallest_cell_m
+         << " m, 0 to have it chosen, or a higher grid.memory_limit_bytes";
+  throw Error(ErrorKind::kLimitExceeded, "grid.cell_m", problem.str(), remedy.str());
+}
+
 }  // namespace sunfleck

@@ -42,6 +42,10 @@ double grid_cell_size(const Forest& forest);
 // Cost: one look at every element of every prototype. Throws what prepare_grid() throws for bad options.
 GridSuitability grid_suitability(const Forest& forest, const GridOptions& options);
 
+// Throws Error(kLimitExceeded) naming "grid.cell_m" where a cell size that was asked for does not fit the
+// memory limit, and what check_grid_options() throws.
+void check_grid_fits(const Forest& forest, const GridOptions& options);
+
 // Throws Error(kInvalidInput) naming "grid.<field>".
 void check_grid_options(const GridOptions& options);
 

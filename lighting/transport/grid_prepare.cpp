@@ -17,16 +17,6 @@ namespace {
 
 using namespace transport;
 
-void refuse_what_does_not_fit(const GridSuitability& s, const GridOptions& options) {
-  if (s.fits) return;
-  std::ostringstream problem, remedy;
-  problem << "cells of " << options.cell_m << " m need " << s.bytes << " bytes (" << s.cells
-          << " cells); the limit is " << options.memory_limit_bytes;
-  remedy << "at least " << s.smallest_cell_m
-         << " m, 0 to have it chosen, or a higher grid.memory_limit_bytes";
-  throw Error(ErrorKind::kLimitExceeded, "grid.cell_m", problem.str(), remedy.str());
-}
-
 BlockerFieldOptions field_options(const Forest& forest, const GridOptions& options, std::size_t elements) {
   const std::uint64_t of_elements = grid_bytes(0, elements, options.directions);
   const std::uint64_t left =
@@ -95,7 +85,7 @@ GridPrepared prepare_grid(const Forest& forest, const GridOptions& options, cons
   if (index.element_count() == 0)
     throw_invalid("forest", "it has no foliage element, so there is nothing to compute light for",
                   "give a forest with at least one tree that has leaves or shoots");
-  refuse_what_does_not_fit(grid_suitability(forest, options), options);
+  check_grid_fits(forest, options);
   Provenance provenance;
   GridPrepared prepared;
   control.report("leaf-area grid", 0.0);

@@ -3,9 +3,13 @@
 
 #include <cmath>
 #include <cstring>
+#include <stop_token>
+#include <thread>
 
 #include "lighting/base/summaries.h"
 #include "lighting/plan/auto_probe.h"
+#include "lighting/plan/auto_rungs.h"
+#include "lighting/plan/auto_time.h"
 #include "lighting/plan/light_config.h"
 #include "sim/base/error.h"
 #include "tests/lighting/plan/auto_scenes.h"
@@ -66,11 +70,20 @@ TEST(Auto, TakesACheapMethodForAWideToleranceAndSaysWhatItIsWorth) {
   }
 }
 
-TEST(Auto, EndsWithTheReferenceForATightTolerance) {
+TEST(Auto, TracesForATightTolerance) {
   const Forest forest = crown();
-  const LightMap map = compute(forest, automatic(0.03));
+  const LightMap map = compute(forest, automatic(0.05));
+  EXPECT_NE(setting(map, "chosen_method").find("links"), std::string::npos);
+  for (const std::size_t b : {0u, 1u})
+    EXPECT_LT(true_rms(forest, map, b), 0.06);  // probes know it to a seventh
+}
+
+TEST(Auto, EndsWithTheReferenceWhereNothingElseWillDo) {
+  const Forest forest = crown();
+  LightRequest r = automatic(0.03);
+  r.links.memory_limit_bytes = 100000;
+  const LightMap map = compute(forest, r);
   EXPECT_EQ(setting(map, "chosen_method"), "reference");
-  EXPECT_NE(setting(map, "tried_methods").find("grid"), std::string::npos);
   EXPECT_FALSE(map.bands[0].standard_error_w_m2.empty());
   for (const std::size_t b : {0u, 1u}) EXPECT_LT(true_rms(forest, map, b), 0.035);
 }
@@ -145,6 +158,67 @@ TEST(Auto, GivesTheBestWithinATimeAndSaysWhatItIsWorth) {
   EXPECT_NE(setting(map, "measured_element_rms.NIR").find('['), std::string::npos);
   for (const std::string& note : map.provenance.notes)
     EXPECT_EQ(note.find("not reached"), std::string::npos) << note;
+}
+
+// Mostly diffuse light: tracing links is enough where cells are not.
+TEST(Auto, AnswersDiffuseLightWithoutTheReference) {
+  LightRequest r = automatic(0.1);
+  r.light.bands = {{0, 100}, {0, 80}};
+  const LightMap map = compute(crown(), r);
+  EXPECT_EQ(setting(map, "chosen_method").find("reference"), std::string::npos)
+      << setting(map, "tried_methods");
+  EXPECT_LE(std::stod(setting(map, "measured_element_rms.PAR")), 0.1) << setting(map, "tried_methods");
+}
+
+TEST(Auto, LeavesTheLightOfASingleLeafWhereItBelongs) {
+  Forest forest = crown();
+  FoliageElement leaf = forest.prototypes[0].foliage[0];
+  leaf.half_u_m = {0.05f, 0, 0};
+  leaf.half_v_m = {0, 0.05f, 0};
+  leaf.area_m2 = 0.01f;
+  forest.prototypes[0].foliage = {leaf};
+  LightRequest r = automatic(0.1);
+  r.light.to_sun = {0, 0, 1};
+  r.light.bands = {{400, 0}, {300, 0}};
+  r.optics.soil_albedo = {0, 0};
+  const LightMap map = compute(forest, r);
+  // Level, so all of the beam on its upper face but for the cosines of the disc, 1e-5.
+  EXPECT_NEAR(map.bands[0].elements[0].front.direct_w_m2, 400, 0.01);
+  EXPECT_NEAR(map.bands[1].elements[0].front.direct_w_m2, 300, 0.01);
+  EXPECT_NEAR(map.bands[0].elements[0].front.scattered_w_m2, 0, 0.01);
+}
+
+TEST(Deadline, StopsWorkWhenItsTimeIsOverAndNotBefore) {
+  const RunControl nobody_stops;
+  {
+    const Deadline far(nobody_stops, 1e6);
+    EXPECT_NO_THROW(far.control().check());
+    EXPECT_FALSE(far.passed());
+  }
+  const Deadline over(nobody_stops, 0.0);
+  while (!over.passed()) std::this_thread::yield();
+  EXPECT_THROW(while (true) over.control().check(), Error);
+}
+
+TEST(Deadline, HandsOnTheStopOfItsCaller) {
+  std::stop_source source;
+  const RunControl outer{source.get_token(), {}};
+  const Deadline far(outer, 1e6);
+  source.request_stop();
+  EXPECT_THROW(far.control().check(), Error);
+  EXPECT_FALSE(far.passed());
+}
+
+TEST(Rungs, TheLeastExpectedCostIsTriedFirst) {
+  std::vector<Rung> rungs(3);
+  rungs[0].predicted_error = 0.2, rungs[0].predicted_s = 0.1;    // will not do
+  rungs[1].predicted_error = 0.099, rungs[1].predicted_s = 1.0;  // as likely as not
+  rungs[2].predicted_error = 0.05, rungs[2].predicted_s = 1.5;
+  EXPECT_EQ(best_rung(rungs, 0.1, 1.0), 2);
+  rungs[2].predicted_s = 4.0;
+  EXPECT_EQ(best_rung(rungs, 0.1, 1.0), 1);
+  EXPECT_EQ(best_rung(rungs, 0.1, 3.0), -1);  // grids turned out three times worse
+  EXPECT_EQ(best_rung({}, 0.1, 1.0), -1);
 }
 
 TEST(Auto, SaysWhenTheToleranceIsOutOfReach) {
