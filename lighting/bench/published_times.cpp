@@ -109,7 +109,12 @@ void add_sky(const PreparedStand& s, double published_ms, const Sink& sink, cons
   sink.add("another sky", timed([&] { scattered_sky_light(response, sky, control); }, 16, plan, control),
            published_ms);
   sink.add("another sky, new band",
-           timed([&] { scattered_sky_light(s.response(control), sky, control); }, 1, plan, control),
+           timed(
+               [&] {
+                 scattered_sky_light(s.forest, s.prepared.grids, s.prepared.cells, {s.optics, kSoil},
+                                     s.prepared.compensation, sky, control);
+               },
+               1, plan, control),
            published_ms);
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 
 #include "lighting/depth/spread_points.h"
 #include "sim/base/contract.h"
@@ -101,22 +100,13 @@ class BlockerFieldBuilder {
   }
 
   void place_elements() {
-    const double cell_m = field_.layout_.mean_cell_m();
-    std::mutex collecting;
-    std::vector<std::size_t> large;
-    for_each_element([&](std::size_t i, const WorldElement& e) {
-      FieldElement& element = field_.elements_[i];
-      element.cell = field_.layout_.flat(field_.layout_.cell_of(Vec3(element.centre_m)));
-      if (!needs_spreading(e, cell_m)) return;
-      const std::lock_guard lock(collecting);
-      large.push_back(i);
+    for_each_chunk(field_.elements_.size(), kChunk, control_, {}, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        FieldElement& element = field_.elements_[i];
+        element.cell = field_.layout_.flat(field_.layout_.cell_of(Vec3(element.centre_m)));
+      }
     });
-    std::ranges::sort(large);
-    for (const std::size_t i : large) {
-      control_.check();
-      const auto [instance, local] = index_.place(i);
-      add_pieces(field_.element_pieces_, i, spread_element(world_element(forest_, instance, local), cell_m));
-    }
+    spread_large_elements();
   }
 
   // Counting sort.
@@ -143,17 +133,40 @@ class BlockerFieldBuilder {
   }
 
  private:
+  static constexpr std::size_t kChunk = 4096;
+
+  // An instance's turn and size, found once for all its elements.
+  struct Placed {
+    const Instance& instance;
+    double sine = std::sin(static_cast<double>(instance.yaw_rad)),
+           cosine = std::cos(static_cast<double>(instance.yaw_rad));
+
+    Vec3 turned(const Vec3f& v) const {
+      const Vec3 p(v);
+      return static_cast<double>(instance.scale) *
+             Vec3(cosine * p.x - sine * p.y, sine * p.x + cosine * p.y, p.z);
+    }
+    WorldElement world(const FoliageElement& e) const {
+      const double scale = instance.scale;
+      return {instance.position_m + turned(e.centre_m),
+              turned(e.half_u_m),
+              turned(e.half_v_m),
+              scale * scale * e.area_m2,
+              e.shape,
+              e.material};
+    }
+  };
+
+  // visit(index, element) for all.
   template <class Visit>
   void for_each_element(const Visit& visit) const {
-    constexpr std::size_t kChunk = 4096;
     for_each_chunk(index_.element_count(), kChunk, control_, {}, [&](std::size_t begin, std::size_t end) {
-      auto [instance, local] = index_.place(begin);
-      for (std::size_t i = begin; i < end; ++i, ++local) {
-        while (i >= index_.first_element(instance + 1)) {
-          ++instance;
-          local = 0;
-        }
-        visit(i, world_element(forest_, instance, local));
+      for (std::size_t i = begin; i < end;) {
+        const auto [instance, local] = index_.place(i);
+        const Placed placed{forest_.instances[instance]};
+        const Prototype& prototype = forest_.prototypes[placed.instance.prototype.value];
+        const std::size_t last = std::min(end, index_.first_element(instance + 1));
+        for (std::size_t k = local; i < last; ++i, ++k) visit(i, placed.world(prototype.foliage[k]));
       }
     });
   }
@@ -192,6 +205,43 @@ class BlockerFieldBuilder {
           box.include(field_.field_from_world(world_from_tree(instance, corner)));
     }
     return box;
+  }
+
+  // Only trees whose largest element does not fit a cell are looked through.
+  void spread_large_elements() {
+    const double cell_m = field_.layout_.mean_cell_m();
+    std::vector<WorldElement> largest;
+    for (const Prototype& p : forest_.prototypes) largest.push_back(largest_of(p));
+    for (std::size_t i = 0; i < forest_.instances.size(); ++i) {
+      const std::size_t first = index_.first_element(i), count = index_.first_element(i + 1) - first;
+      const Instance& instance = forest_.instances[i];
+      if (count == 0 || !needs_spreading(scaled(largest[instance.prototype.value], instance.scale), cell_m))
+        continue;
+      const Placed placed{instance};
+      for (std::size_t local = 0; local < count; ++local) {
+        if (local % kChunk == 0) control_.check();
+        const WorldElement e = placed.world(forest_.prototypes[instance.prototype.value].foliage[local]);
+        if (needs_spreading(e, cell_m))
+          add_pieces(field_.element_pieces_, first + local, spread_element(e, cell_m));
+      }
+    }
+  }
+
+  // Something no element of the prototype exceeds, a little larger for rounding.
+  static WorldElement largest_of(const Prototype& prototype) {
+    WorldElement largest{};
+    largest.shape = ElementShape::kParallelogram;
+    for (const FoliageElement& e : prototype.foliage) {
+      largest.half_u_m.x = std::max({largest.half_u_m.x, glm::length(Vec3(e.half_u_m)) * (1.0 + 1e-9),
+                                     glm::length(Vec3(e.half_v_m)) * (1.0 + 1e-9)});
+      largest.area_m2 = std::max(largest.area_m2, static_cast<double>(e.area_m2) * (1.0 + 1e-9));
+    }
+    return largest;
+  }
+  static WorldElement scaled(WorldElement element, double scale) {
+    element.half_u_m *= scale;
+    element.area_m2 *= scale * scale;
+    return element;
   }
 
   // One piece per cell: what a blocker covers of a cell's face counts once.

@@ -13,8 +13,8 @@ namespace sunfleck {
 namespace {
 
 constexpr double kTexelsPerLeafSide = 1.5;
-constexpr double kMostSlices = 256;
-constexpr int kMargin = 2;  // texels around the bounds
+constexpr double kMostSlices = kMostOpacitySlices;
+constexpr int kMargin = kOpacityMargin;
 
 void include_extent(Box& box, const Vec3& centre, const Vec3& half_extent) {
   box.include(centre - half_extent);

@@ -12,6 +12,9 @@ namespace sunfleck {
 
 // Unit axes: `across` is horizontal (x for a vertical light), `upwards` completes (across, upwards,
 // to_light).
+inline constexpr int kOpacityMargin = 2;  // texels around the bounds
+inline constexpr int kMostOpacitySlices = 256;
+
 struct LightAxes {
   Vec3 across, upwards, to_light;
 };

@@ -30,6 +30,11 @@ std::size_t opacity_map_bytes(const OpacityLayout& layout) {
   return layout.columns() * (layout.slices + 1) * sizeof(float);
 }
 
+std::size_t largest_opacity_map_bytes(int resolution) {
+  const auto side = static_cast<std::size_t>(resolution + 1 + 2 * kOpacityMargin);
+  return side * side * (kMostOpacitySlices + 1) * sizeof(float);
+}
+
 OpacityMap::OpacityMap(const Prototype& prototype, const Vec3& to_light, int resolution,
                        const RunControl& control)
     : layout_(opacity_layout(prototype, to_light, resolution)) {

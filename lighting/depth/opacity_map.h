@@ -80,5 +80,7 @@ class OpacityMap {
 
 // Bytes a map would take.
 std::size_t opacity_map_bytes(const OpacityLayout& layout);
+// And at most, whatever the prototype.
+std::size_t largest_opacity_map_bytes(int resolution);
 
 }  // namespace sunfleck

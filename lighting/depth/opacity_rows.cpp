@@ -112,6 +112,54 @@ struct TexelFrame {
           depth_of_share(least_of(cover * (s.right * s.up), kMostCover))};
 }
 
+// Sites to be read together, and what to leave out at each.
+struct Sites {
+  alignas(64) std::array<std::int32_t, kAtOnce> at, slice;
+  alignas(64) std::array<float, kAtOnce> right, up, part;
+  alignas(64) std::array<std::array<float, kAtOnce>, 4> own;  // depth, of which `part` lies above the site
+  alignas(64) std::array<float, kAtOnce> before, behind;      // the answers
+
+  void set(std::size_t i, const Site& s) {
+    at[i] = s.at;
+    slice[i] = s.slice;
+    right[i] = s.right;
+    up[i] = s.up;
+    part[i] = s.part;
+  }
+};
+
+template <bool kOwn>
+[[gnu::always_inline]] inline void read_loop(const Columns& map, std::size_t count, Sites& sites) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const Site s{sites.at[i], sites.slice[i], sites.right[i], sites.up[i], sites.part[i]};
+    std::array<Depths, 4> own{};
+    if (kOwn)
+      for (std::size_t q = 0; q < 4; ++q)
+        own[q] = {s.part * sites.own[q][i], (1.0f - s.part) * sites.own[q][i]};
+    const Depths d = read_site(map, s, own);
+    sites.before[i] = d.before;
+    sites.behind[i] = d.behind;
+  }
+}
+
+#define SUNFLECK_AVX512 [[gnu::target("avx512f,avx512vl,avx512bw,avx512dq,prefer-vector-width=512")]]
+SUNFLECK_AVX512 void read_avx512(const Columns& map, std::size_t count, Sites& sites) {
+  read_loop<false>(map, count, sites);
+}
+SUNFLECK_AVX512 void read_others_avx512(const Columns& map, std::size_t count, Sites& sites) {
+  read_loop<true>(map, count, sites);
+}
+void read_v3(const Columns& map, std::size_t count, Sites& sites) { read_loop<false>(map, count, sites); }
+void read_others_v3(const Columns& map, std::size_t count, Sites& sites) {
+  read_loop<true>(map, count, sites);
+}
+
+using ReadSites = void (*)(const Columns& map, std::size_t count, Sites& sites);
+bool is_wide_machine() {
+  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+         __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq");
+}
+
 }  // namespace
 
 Vec3 OpacityMap::texel_from_tree(const Vec3& point_m) const {
@@ -128,6 +176,8 @@ void OpacityMap::add_at(const AffineFloat& a, std::span<const float> x, std::spa
                     static_cast<std::int32_t>(layout_.texels_across * (layout_.slices + 1))};
   const float last_x = static_cast<float>(layout_.texels_across - 1),
               last_y = static_cast<float>(layout_.texels_upwards - 1);
+  const ReadSites read_sites = is_wide_machine() ? read_avx512 : read_v3;
+  Sites sites;
   std::array<std::uint32_t, kAtOnce> inside;
   std::array<float, kAtOnce> column, row, slice;
   for (std::size_t first = 0; first < x.size(); first += kAtOnce) {
@@ -144,11 +194,12 @@ void OpacityMap::add_at(const AffineFloat& a, std::span<const float> x, std::spa
       found += static_cast<std::size_t>((column[i] >= 0.0f) & (row[i] >= 0.0f) & (column[i] < last_x) &
                                         (row[i] < last_y));
     }
+    for (std::size_t k = 0; k < found; ++k)
+      sites.set(k, site_at(column[inside[k]], row[inside[k]], slice[inside[k]], layout_, map));
+    read_sites(map, found, sites);
     for (std::size_t k = 0; k < found; ++k) {
-      const std::uint32_t i = inside[k];
-      const Depths d = read_site(map, site_at(column[i], row[i], slice[i], layout_, map), {});
-      before[first + i] += d.before;
-      behind[first + i] += d.behind;
+      before[first + inside[k]] += sites.before[k];
+      behind[first + inside[k]] += sites.behind[k];
     }
   }
 }
@@ -162,20 +213,29 @@ void OpacityMap::around_all(const Prototype& prototype, const ElementRows& rows,
   const TexelFrame frame(*this);
   const Vec3f light(layout_.axes.to_light);
   const float per_texel = static_cast<float>(1.0 / (layout_.texel_m * layout_.texel_m));
-  for (std::size_t e = begin; e < end; ++e) {
-    Site site;
-    if (!whole_site(layout_, map, frame.at(rows, e), rows.longest_m[e], site)) {
-      const OpticalDepths slow = around(prototype.foliage[e]);
-      before[e] = static_cast<float>(slow.before);
-      behind[e] = static_cast<float>(slow.behind);
-      continue;
+  const ReadSites read_sites = is_wide_machine() ? read_others_avx512 : read_others_v3;
+  Sites sites;
+  std::array<std::size_t, kAtOnce> element;
+  for (std::size_t first = begin; first < end; first += kAtOnce) {
+    std::size_t found = 0;
+    for (std::size_t e = first; e < std::min(end, first + kAtOnce); ++e) {
+      Site site;
+      if (!whole_site(layout_, map, frame.at(rows, e), rows.longest_m[e], site)) {
+        const OpticalDepths slow = around(prototype.foliage[e]);
+        before[e] = static_cast<float>(slow.before);
+        behind[e] = static_cast<float>(slow.behind);
+        continue;
+      }
+      const std::array<float, 4> depth = own_depths(site, shown_m2(rows, e, light) * per_texel);
+      sites.set(found, site);
+      for (std::size_t q = 0; q < 4; ++q) sites.own[q][found] = depth[q];
+      element[found++] = e;
     }
-    const std::array<float, 4> depth = own_depths(site, shown_m2(rows, e, light) * per_texel);
-    std::array<Depths, 4> own;
-    for (std::size_t q = 0; q < 4; ++q) own[q] = {site.part * depth[q], (1.0f - site.part) * depth[q]};
-    const Depths d = read_site(map, site, own);
-    before[e] = d.before;
-    behind[e] = d.behind;
+    read_sites(map, found, sites);
+    for (std::size_t k = 0; k < found; ++k) {
+      before[element[k]] = sites.before[k];
+      behind[element[k]] = sites.behind[k];
+    }
   }
 }
 

@@ -83,12 +83,13 @@ LightMap envelope_full_light_map(const Forest& forest, const OpticsTable& optics
   }
   {
     const StageTimer timer(map.provenance, "evaluation");
+    const std::vector<float> sun_depths = query->parts_->sun_depths(control);
     for_each_chunk(index.element_count(), kChunk, control, "evaluating leaves",
                    [&](std::size_t begin, std::size_t end) {
                      ArrivingLight light(parts, query->parts_->sources);
                      EnvelopeAnswer answer;
                      for (std::size_t i = begin; i < end; ++i) {
-                       query->parts_->element(i, light, answer);
+                       query->parts_->element(i, sun_depths[i], light, answer);
                        map.sunlit_fraction[i] = static_cast<float>(answer.sunlit);
                        for (std::size_t b = 0; b < map.bands.size(); ++b)
                          map.bands[b].elements[i] = answer.bands[b];

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/base/error.h"
+#include "sim/base/parallel.h"
 
 namespace sunfleck {
 
@@ -69,8 +70,12 @@ EnvelopeQuery::~EnvelopeQuery() = default;
 double EnvelopeQuery::Parts::sun_depth(std::size_t element) const {
   if (!sources.sun || prepared.field->ends_on_ground(sources.to_sun)) return kLargestDepth;
   if (!sources.sun_grid) return interpolated_sun_depth(sources, prepared.depths_of(element));
-  if (prepared.options.own_leaf == EnvelopeOwnLeaf::kRemoved)
-    return sources.sun_grid->depth_from_element(element, March::kForward);
+  if (prepared.options.own_leaf == EnvelopeOwnLeaf::kRemoved) {
+    const auto index32 = static_cast<std::uint32_t>(element);
+    float depth = 0.0f;
+    sources.sun_grid->depths_from_elements({&index32, 1}, March::kForward, &depth);
+    return depth;
+  }
   const auto [instance, local] = index.place(element);
   return prepared.field->elements()[element].below_ground
              ? kLargestDepth
@@ -78,11 +83,21 @@ double EnvelopeQuery::Parts::sun_depth(std::size_t element) const {
                                                   March::kForward);
 }
 
-void EnvelopeQuery::Parts::element(std::size_t i, ArrivingLight& light, EnvelopeAnswer& answer) const {
+std::vector<float> EnvelopeQuery::Parts::sun_depths(const RunControl& control) const {
+  if (sources.sun_grid && prepared.options.own_leaf == EnvelopeOwnLeaf::kRemoved)
+    return sources.sun_grid->depth_of_elements(March::kForward, control);
+  std::vector<float> depths(index.element_count());
+  for_each_chunk(depths.size(), 256, control, {}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) depths[i] = static_cast<float>(sun_depth(i));
+  });
+  return depths;
+}
+
+void EnvelopeQuery::Parts::element(std::size_t i, double depth, ArrivingLight& light,
+                                   EnvelopeAnswer& answer) const {
   const auto [instance, local] = index.place(i);
   const FieldElement& e = prepared.field->elements()[i];
   const PrototypeId prototype = forest.instances[instance].prototype;
-  const double depth = sources.sun ? sun_depth(i) : kLargestDepth;
   light.receive({.depths = prepared.depths_of(i),
                  .sun_depth = depth,
                  .field_point_m = Vec3(e.centre_m),
@@ -100,7 +115,7 @@ EnvelopeAnswer EnvelopeQuery::at_element(std::size_t element) const {
   SUNFLECK_EXPECTS(element < parts_->index.element_count());
   ArrivingLight light(parts_->prepared, parts_->sources);
   EnvelopeAnswer answer;
-  parts_->element(element, light, answer);
+  parts_->element(element, parts_->sun_depth(element), light, answer);
   return answer;
 }
 

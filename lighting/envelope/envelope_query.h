@@ -20,9 +20,10 @@ struct EnvelopeQuery::Parts {
   envelope::Sources sources;
 
   double sun_depth(std::size_t element) const;
+  std::vector<float> sun_depths(const RunControl& control) const;  // of all elements
   double sun_depth_at(const Vec3& point_m, std::span<const float> sectors) const;
   // `light` is scratch: one per thread.
-  void element(std::size_t i, envelope::ArrivingLight& light, EnvelopeAnswer& answer) const;
+  void element(std::size_t i, double sun_depth, envelope::ArrivingLight& light, EnvelopeAnswer& answer) const;
 
   // `albedo(band)` is that of the element itself.
   template <class Albedo>

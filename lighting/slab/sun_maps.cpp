@@ -30,6 +30,8 @@ std::vector<MapWish> sun_wishes(const Forest& forest, const SunYaws& yaws, const
 
 int affordable_resolution(const Forest& forest, const std::vector<MapWish>& wishes, int resolution) {
   for (; resolution > 8; resolution /= 2) {
+    // Maps are no larger than this; to know better costs a look at every leaf for each.
+    if (wishes.size() * largest_opacity_map_bytes(resolution) <= kMapBytes) break;
     std::size_t bytes = 0;
     for (const MapWish& w : wishes)
       bytes += opacity_map_bytes(opacity_layout(forest.prototypes[w.prototype], w.to_light, resolution));

@@ -70,12 +70,22 @@ std::vector<CellRadiance> by_cell(const TransportScene& scene, std::span<const f
   return all;
 }
 
-std::vector<FacePair> light_of_parts(const TransportScene& scene, std::span<const float> radiance,
-                                     std::span<const FacePair> given, const RunControl& control) {
+// One or two kinds of light; `given` is in the last.
+struct Lights {
+  std::array<std::vector<CellRadiance>, 2> radiance;  // the second empty where there is but one
+  std::span<const FacePair> given;
+
+  std::size_t count() const { return radiance[1].empty() ? 1 : 2; }
+};
+
+// [kind][part]
+using PartLights = std::array<std::vector<FacePair>, 2>;
+
+PartLights light_of_parts(const TransportScene& scene, const Lights& lights, const RunControl& control) {
   const CellContents& contents = scene.contents;
-  const std::vector<CellRadiance> of_cells = by_cell(scene, radiance, control);
   const GatherPart gather_part = gather_part_best();
-  std::vector<FacePair> light(contents.parts.size());
+  PartLights light;
+  for (std::size_t i = 0; i < lights.count(); ++i) light[i].resize(contents.parts.size());
   for_each_chunk(contents.ranges.size(), 1, control, {}, [&](std::size_t r, std::size_t) {
     for (std::uint32_t cell = contents.ranges[r].begin; cell < contents.ranges[r].end; ++cell) {
       for (std::uint32_t p = contents.first_part[cell]; p < contents.first_part[cell + 1]; ++p) {
@@ -85,24 +95,25 @@ std::vector<FacePair> light_of_parts(const TransportScene& scene, std::span<cons
         const Corners corners =
             whole ? corners_around(scene.layout, cell, Vec3(scene.field->elements()[e].centre_m))
                   : only_cell(cell);
-        light[p] = gather_part({.part = part,
-                                .shoot = shoot_of(part, contents.shoots.data()),
-                                .radiance = of_cells.data(),
-                                .corners = corners,
-                                .given = given.empty() ? FacePair{} : given[p]},
-                               scene.lanes);
+        PartInLight in_light{.part = part,
+                             .shoot = shoot_of(part, contents.shoots.data()),
+                             .corners = corners,
+                             .radiance = {lights.radiance[0].data(), nullptr},
+                             .given = {}};
+        if (lights.count() == 2) in_light.radiance[1] = lights.radiance[1].data();
+        if (!lights.given.empty()) in_light.given[lights.count() - 1] = lights.given[p];
+        std::array<FacePair, 2> found;
+        gather_part(in_light, scene.lanes, found.data());
+        for (std::size_t i = 0; i < lights.count(); ++i) light[i][p] = found[i];
       }
     }
   });
   return light;
 }
 
-}  // namespace
-
-std::vector<FacePair> gather(const TransportScene& scene, std::span<const float> radiance,
-                             std::span<const FacePair> given, const RunControl& control) {
+std::vector<FacePair> light_of_elements(const TransportScene& scene, const std::vector<FacePair>& of_parts,
+                                        const RunControl& control) {
   const CellContents& contents = scene.contents;
-  const std::vector<FacePair> of_parts = light_of_parts(scene, radiance, given, control);
   std::vector<FacePair> light(scene.field->elements().size());
   for_each_chunk(light.size(), 8192, control, {}, [&](std::size_t begin, std::size_t end) {
     for (std::size_t e = begin; e < end; ++e) {
@@ -115,6 +126,23 @@ std::vector<FacePair> gather(const TransportScene& scene, std::span<const float>
     }
   });
   return light;
+}
+
+}  // namespace
+
+std::vector<FacePair> gather(const TransportScene& scene, std::span<const float> radiance,
+                             std::span<const FacePair> given, const RunControl& control) {
+  const Lights lights{.radiance = {by_cell(scene, radiance, control), {}}, .given = given};
+  return light_of_elements(scene, light_of_parts(scene, lights, control)[0], control);
+}
+
+GatheredPair gather_two(const TransportScene& scene, std::span<const float> first,
+                        std::span<const float> second, std::span<const FacePair> given_second,
+                        const RunControl& control) {
+  const Lights lights{.radiance = {by_cell(scene, first, control), by_cell(scene, second, control)},
+                      .given = given_second};
+  const PartLights of_parts = light_of_parts(scene, lights, control);
+  return {light_of_elements(scene, of_parts[0], control), light_of_elements(scene, of_parts[1], control)};
 }
 
 void add_light_inside_shoot(const CellContents& contents, std::size_t e, const std::vector<LeafBand>& leaf,

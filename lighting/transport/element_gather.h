@@ -18,6 +18,14 @@ namespace sunfleck::transport {
 std::vector<FacePair> gather(const TransportScene& scene, std::span<const float> radiance,
                              std::span<const FacePair> given, const RunControl& control);
 
+// The same for two kinds of light in one pass.
+struct GatheredPair {
+  std::vector<FacePair> first, second;
+};
+GatheredPair gather_two(const TransportScene& scene, std::span<const float> first,
+                        std::span<const float> second, std::span<const FacePair> given_second,
+                        const RunControl& control);
+
 // Needles of a shoot light each other: adds to light from outside. `leaf` by optics class.
 void add_light_inside_shoot(const CellContents& contents, std::size_t element,
                             const std::vector<LeafBand>& leaf, ElementLight& light);

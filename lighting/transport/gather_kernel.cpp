@@ -41,23 +41,22 @@ struct WidePart {
   wide.own = p.corners.own_weight * (a + 0.5f * a * a);
 }
 
-[[gnu::always_inline]] inline FacePair gather_part(const PartInLight& p, const DirectionLanes& lanes) {
-  WidePart wide;
-  measure(p, lanes, wide);
-  WideLanes near = {}, far = {}, of_corner, solid_angle_sr;
+[[gnu::always_inline]] inline FacePair light_on(const PartInLight& p, const WidePart& wide,
+                                                const WideLanes& solid_angle_sr, const CellRadiance* radiance,
+                                                const FacePair& given) {
+  WideLanes near = {}, far = {}, of_corner;
   for (std::size_t k = 0; k < 8; ++k) {
-    load_wide(of_corner, p.radiance[p.corners.cell[k]].near);
+    load_wide(of_corner, radiance[p.corners.cell[k]].near);
     near += p.corners.weight[k] * of_corner;
-    load_wide(of_corner, p.radiance[p.corners.cell[k]].far);
+    load_wide(of_corner, radiance[p.corners.cell[k]].far);
     far += p.corners.weight[k] * of_corner;
   }
   WideLanes own_near, own_far;
-  load_wide(own_near, p.radiance[p.corners.own_cell].near);
-  load_wide(own_far, p.radiance[p.corners.own_cell].far);
-  load_wide(solid_angle_sr, lanes.solid_angle_sr);
+  load_wide(own_near, radiance[p.corners.own_cell].near);
+  load_wide(own_far, radiance[p.corners.own_cell].far);
   // What reaches the front travels as what the part sends off its back.
-  const WideLanes nothing = {}, off_front = nothing + p.given.front * kPerPi,
-                  off_back = nothing + p.given.back * kPerPi;
+  const WideLanes nothing = {}, off_front = nothing + given.front * kPerPi,
+                  off_back = nothing + given.back * kPerPi;
   WideMask from_behind;
   negative_lanes(from_behind, wide.cosine);
   WideLanes off_near, off_far, to_front, to_back;
@@ -79,32 +78,41 @@ struct WidePart {
   return {even, even};
 }
 
-FacePair gather_part_v3(const PartInLight& part, const DirectionLanes& lanes) {
-  return gather_part(part, lanes);
+[[gnu::always_inline]] inline void gather_part(const PartInLight& p, const DirectionLanes& lanes,
+                                               FacePair* light) {
+  WidePart wide;
+  measure(p, lanes, wide);
+  WideLanes solid_angle_sr;
+  load_wide(solid_angle_sr, lanes.solid_angle_sr);
+  light[0] = light_on(p, wide, solid_angle_sr, p.radiance[0], p.given[0]);
+  if (p.radiance[1] != nullptr) light[1] = light_on(p, wide, solid_angle_sr, p.radiance[1], p.given[1]);
 }
 
-[[gnu::target("avx512f,avx512vl,avx512bw,avx512dq,prefer-vector-width=512")]] FacePair gather_part_avx512(
-    const PartInLight& part, const DirectionLanes& lanes) {
-  return gather_part(part, lanes);
+void gather_part_v3(const PartInLight& part, const DirectionLanes& lanes, FacePair* light) {
+  gather_part(part, lanes, light);
 }
 
-}  // namespace
+[[gnu::target("avx512f,avx512vl,avx512bw,avx512dq,prefer-vector-width=512")]] void gather_part_avx512(
+    const PartInLight& part, const DirectionLanes& lanes, FacePair* light) {
+  gather_part(part, lanes, light);
+}
 
-FacePair gather_part_plain(const PartInLight& p, const DirectionLanes& lanes) {
+FacePair plain_light_on(const PartInLight& p, const DirectionLanes& lanes, const CellRadiance* radiance,
+                        const FacePair& given) {
   alignas(64) Lanes cosine, depth;
   part_depths(p.part, p.shoot, lanes, cosine, depth);
   float weights = 0.0f, front = 0.0f, back = 0.0f;
   for (std::size_t j = 0; j < kLanes; ++j) {
     float near = 0.0f, far = 0.0f;
     for (std::size_t k = 0; k < 8; ++k) {
-      near += p.corners.weight[k] * p.radiance[p.corners.cell[k]].near[j];
-      far += p.corners.weight[k] * p.radiance[p.corners.cell[k]].far[j];
+      near += p.corners.weight[k] * radiance[p.corners.cell[k]].near[j];
+      far += p.corners.weight[k] * radiance[p.corners.cell[k]].far[j];
     }
     const bool on_front = cosine[j] >= 0.0f;
     const float own = p.corners.own_weight * own_part(depth[j], lanes.step_cells[j]);
-    const CellRadiance& here = p.radiance[p.corners.own_cell];
-    near += own * (here.near[j] - (on_front ? p.given.back : p.given.front) / kPiF);
-    far += own * (here.far[j] - (on_front ? p.given.front : p.given.back) / kPiF);
+    const CellRadiance& here = radiance[p.corners.own_cell];
+    near += own * (here.near[j] - (on_front ? given.back : given.front) / kPiF);
+    far += own * (here.far[j] - (on_front ? given.front : given.back) / kPiF);
     const float cover = p.shoot != nullptr ? p.shoot->cover[j] : std::fabs(cosine[j]);
     const float weight = lanes.solid_angle_sr[j] * cover;
     weights += weight;
@@ -116,6 +124,13 @@ FacePair gather_part_plain(const PartInLight& p, const DirectionLanes& lanes) {
   if (p.shoot == nullptr) return {front, back};
   const float even = p.shoot->escape * 0.5f * (front + back);
   return {even, even};
+}
+
+}  // namespace
+
+void gather_part_plain(const PartInLight& p, const DirectionLanes& lanes, FacePair* light) {
+  for (std::size_t i = 0; i < 2; ++i)
+    if (p.radiance[i] != nullptr) light[i] = plain_light_on(p, lanes, p.radiance[i], p.given[i]);
 }
 
 GatherPart gather_part_best() {

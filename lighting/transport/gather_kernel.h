@@ -21,16 +21,17 @@ struct Corners {
   float own_weight = 0;
 };
 
+// A part in two kinds of light at once, or in one.
 struct PartInLight {
   const LeafPart& part;
-  const ShootPart* shoot;        // null: flat
-  const CellRadiance* radiance;  // of all cells
+  const ShootPart* shoot;  // null: flat
   const Corners& corners;
-  FacePair given;  // radiosity of the part that is in `radiance`
+  std::array<const CellRadiance*, 2> radiance{};  // of all cells; the second null where there is but one
+  std::array<FacePair, 2> given{};                // radiosity of the part that is in `radiance`
 };
 
-using GatherPart = FacePair (*)(const PartInLight& part, const DirectionLanes& lanes);
-FacePair gather_part_plain(const PartInLight& part, const DirectionLanes& lanes);
+using GatherPart = void (*)(const PartInLight& part, const DirectionLanes& lanes, FacePair* light);
+void gather_part_plain(const PartInLight& part, const DirectionLanes& lanes, FacePair* light);
 // The fastest form this machine runs. All agree but for rounding.
 GatherPart gather_part_best();
 

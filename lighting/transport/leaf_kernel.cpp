@@ -76,6 +76,12 @@ struct WideCell {
   load_wide(wide.per_step, lanes.per_step);
 }
 
+[[gnu::always_inline]] inline void store_sources(const WideCell& wide, CellLight& cell) {
+  store_wide(cell.source_near, wide.source_near);
+  store_wide(cell.source_far, wide.source_far);
+  store_wide(cell.depth, wide.depth);
+}
+
 // -ln(1 - q) of a part's cover over a step, and its cosines.
 [[gnu::always_inline]] inline void step_depth(const LeafOrder& order, const LeafPart& part,
                                               const WideCell& wide, WideLanes& cosine, WideLanes& depth) {
@@ -92,6 +98,19 @@ struct WideCell {
   const WideLanes largest = WideLanes{} + kLargestPartCover;
   q = q < largest ? q : largest;
   depth = 3.0f * q * (2.0f - q) / (6.0f + q * (q - 6.0f));
+}
+
+// Light arriving from w travels along -w: off the back where w is on the front's side.
+[[gnu::always_inline]] inline void add_sources(WideCell& wide, const WideMask& from_behind,
+                                               const WideLanes& depth, const FacePair& given) {
+  const WideLanes nothing = {}, off_front = nothing + given.front * kPerPi,
+                  off_back = nothing + given.back * kPerPi;
+  WideLanes off_near, off_far;
+  choose_wide(off_near, from_behind, off_front, off_back);
+  choose_wide(off_far, from_behind, off_back, off_front);
+  wide.source_near += depth * off_near;
+  wide.source_far += depth * off_far;
+  wide.depth += depth;
 }
 
 [[gnu::always_inline]] inline double scatter_leaf(const LeafOrder& order, std::uint32_t p, WideCell& wide) {
@@ -117,16 +136,18 @@ struct WideCell {
   sums_wide(weight, front, back, sums);
   const float per_radiance = order.scale * kPiF / sums[0];
   const PartLight done = light_of_part(order, part, per_radiance * sums[1], per_radiance * sums[2]);
-  const WideLanes off_front = nothing + done.given.front * kPerPi,
-                  off_back = nothing + done.given.back * kPerPi;
-  // Light arriving from w travels along -w: off the back where w is on the front's side.
-  WideLanes off_near, off_far;
-  choose_wide(off_near, from_behind, off_front, off_back);
-  choose_wide(off_far, from_behind, off_back, off_front);
-  wide.source_near += depth * off_near;
-  wide.source_far += depth * off_far;
-  wide.depth += depth;
+  add_sources(wide, from_behind, depth, done.given);
   return keep(order, p, done);
+}
+
+[[gnu::always_inline]] inline void emit_leaf(const LeafOrder& order, std::uint32_t p, const FacePair& given,
+                                             WideCell& wide) {
+  WideLanes cosine, depth;
+  step_depth(order, order.parts[p], wide, cosine, depth);
+  depth *= wide.per_step;
+  WideMask from_behind;
+  negative_lanes(from_behind, cosine);
+  add_sources(wide, from_behind, depth, given);
 }
 
 [[gnu::always_inline]] inline double scatter_leaves(const LeafOrder& order, const DirectionLanes& lanes,
@@ -135,10 +156,28 @@ struct WideCell {
   load_cell(wide, cell, lanes);
   double power = 0.0;
   for (std::uint32_t p = begin; p < end; ++p) power += scatter_leaf(order, p, wide);
-  store_wide(cell.source_near, wide.source_near);
-  store_wide(cell.source_far, wide.source_far);
-  store_wide(cell.depth, wide.depth);
+  store_sources(wide, cell);
   return power;
+}
+
+[[gnu::always_inline]] inline void emit_leaves(const LeafOrder& order, const DirectionLanes& lanes,
+                                               const FacePair* given, std::uint32_t begin, std::uint32_t end,
+                                               CellLight& cell) {
+  WideCell wide;
+  load_cell(wide, cell, lanes);
+  for (std::uint32_t p = begin; p < end; ++p) emit_leaf(order, p, given[p], wide);
+  store_sources(wide, cell);
+}
+
+void emit_leaves_v3(const LeafOrder& order, const DirectionLanes& lanes, const FacePair* given,
+                    std::uint32_t begin, std::uint32_t end, CellLight& cell) {
+  emit_leaves(order, lanes, given, begin, end, cell);
+}
+
+[[gnu::target("avx512f,avx512vl,avx512bw,avx512dq,prefer-vector-width=512")]] void emit_leaves_avx512(
+    const LeafOrder& order, const DirectionLanes& lanes, const FacePair* given, std::uint32_t begin,
+    std::uint32_t end, CellLight& cell) {
+  emit_leaves(order, lanes, given, begin, end, cell);
 }
 
 double scatter_leaves_v3(const LeafOrder& order, const DirectionLanes& lanes, std::uint32_t begin,
@@ -180,10 +219,25 @@ double scatter_leaves_plain(const LeafOrder& order, const DirectionLanes& lanes,
   return power;
 }
 
-ScatterLeaves scatter_leaves_best() {
-  const bool wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-                    __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq");
-  return wide ? scatter_leaves_avx512 : scatter_leaves_v3;
+void emit_leaves_plain(const LeafOrder& order, const DirectionLanes& lanes, const FacePair* given,
+                       std::uint32_t begin, std::uint32_t end, CellLight& cell) {
+  for (std::uint32_t p = begin; p < end; ++p) {
+    Lanes cosine, depth;
+    part_depths(order.parts[p], shoot_of(order.parts[p], order.shoots), lanes, cosine, depth);
+    deposit(cell, cosine, depth, given[p]);
+  }
 }
+
+namespace {
+
+bool is_wide_machine() {
+  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+         __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq");
+}
+
+}  // namespace
+
+ScatterLeaves scatter_leaves_best() { return is_wide_machine() ? scatter_leaves_avx512 : scatter_leaves_v3; }
+EmitLeaves emit_leaves_best() { return is_wide_machine() ? emit_leaves_avx512 : emit_leaves_v3; }
 
 }  // namespace sunfleck::transport

@@ -35,6 +35,14 @@ double scatter_leaves_plain(const LeafOrder& order, const DirectionLanes& lanes,
 // The fastest form this machine runs. All agree but for rounding.
 ScatterLeaves scatter_leaves_best();
 
+// Adds to the cell what parts `begin` to `end` give back, and their depth; `given` is their radiosity, by
+// part.
+using EmitLeaves = void (*)(const LeafOrder& order, const DirectionLanes& lanes, const FacePair* given,
+                            std::uint32_t begin, std::uint32_t end, CellLight& cell);
+void emit_leaves_plain(const LeafOrder& order, const DirectionLanes& lanes, const FacePair* given,
+                       std::uint32_t begin, std::uint32_t end, CellLight& cell);
+EmitLeaves emit_leaves_best();
+
 // Adds the sources of a part of these lanes and radiosity.
 void deposit(CellLight& cell, const Lanes& cosine, const Lanes& depth, const FacePair& radiosity);
 

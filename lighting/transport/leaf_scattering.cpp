@@ -187,16 +187,13 @@ double LeafScattering::next_order(std::span<const float> radiance, double scale,
 
 void LeafScattering::total_source(const Orders& orders, double tail, std::span<float> source,
                                   const RunControl& control) const {
+  const std::vector<FacePair> given = total_radiosity(orders, tail, control);
+  const LeafOrder order{.parts = contents_.parts.data(), .shoots = contents_.shoots.data()};
+  const EmitLeaves emit_leaves = emit_leaves_best();
   for_each_cell(
       {}, source, control,
       [&](std::size_t, std::uint32_t begin, std::uint32_t end, CellLight& cell) {
-        for (std::uint32_t p = begin; p < end; ++p) {
-          const LeafPart& part = contents_.parts[p];
-          alignas(64) Lanes cosine, depth;
-          part_depths(part, shoot_of(part, contents_.shoots.data()), lanes_, cosine, depth);
-          const FacePair light = with_tail(orders.total[p], orders.last[p], tail);
-          deposit(cell, cosine, depth, radiosity_of(bands_[part.optics], part.shoot > 0, light));
-        }
+        emit_leaves(order, lanes_, given.data(), begin, end, cell);
       },
       [&](std::size_t, std::size_t wood, CellLight&) {
         return orders.wood_total[wood] + static_cast<float>(tail) * orders.wood_last[wood];

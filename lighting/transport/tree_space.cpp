@@ -9,7 +9,13 @@ namespace sunfleck::transport {
 
 namespace {
 
-constexpr double kMarginCells = 1.0;  // of the world, between the tree and the fine grid's border
+// Between the tree and the fine grid's border: a cell of the world, half a cell of those that are coarser
+// than this for want of memory (-0.4 % of scattered sunlight).
+constexpr double kUsualMargin_m = 0.5;
+double margin_m(double world_cell_m) {
+  return std::min(world_cell_m, std::max(0.5 * world_cell_m, kUsualMargin_m));
+}
+
 constexpr std::uint64_t kMostFineCells = 4 << 20;  // of one tree
 
 // The forest with one instance and its prototype alone; numbers of prototypes stay.
@@ -55,7 +61,7 @@ TreeSpace::TreeSpace(const Forest& forest, const WorldLight& world, std::size_t 
       index(tree),
       fine(transport_scene(tree, index, scene.set,
                            {.max_cells = kMostFineCells,
-                            .margin_m = kMarginCells * scene.layout.mean_cell_m(),
+                            .margin_m = margin_m(scene.layout.mean_cell_m()),
                             .frame = tree_frame(tree)},
                            control)),
       around(scene, sources, tree.instances[0], covered()),

@@ -28,6 +28,23 @@ class BlockInflow final : public Inflow {
   const float* radiance_;
 };
 
+// What came in at the border once comes in again: sweeps of one direction ask in the same order every time.
+class KeptInflow final : public Inflow {
+ public:
+  KeptInflow(const Inflow& from, std::vector<float>& kept)
+      : from_(from), kept_(kept), is_kept_(!kept.empty()) {}
+  float radiance(const std::array<int, 3>& cell) const override {
+    if (!is_kept_) kept_.push_back(from_.radiance(cell));
+    return kept_[next_++];
+  }
+
+ private:
+  const Inflow& from_;
+  std::vector<float>& kept_;
+  const bool is_kept_;
+  mutable std::size_t next_ = 0;
+};
+
 class TreeSolver {
  public:
   TreeSolver(const Forest& forest, const OpticsTable& optics, const WorldLight& world, std::size_t instance,
@@ -76,23 +93,33 @@ class TreeSolver {
 
   void light_by_sky() {
     sky_.assign(space_.fine.set.count() * space_.fine.cells(), 0.0f);
-    sky_on_elements_.resize(space_.index.element_count());
-    if (space_.sources.sky.empty()) return;
+    if (space_.sources.sky.empty()) return sky_on_elements_.resize(space_.index.element_count());
     const std::vector<float> dark(space_.scene.ground->count(), 0.0f);
-    sweep_all(block_radiance(space_.scene, space_.around, space_.sources.sky, outside(1.0, dark, 0.0)), sky_);
-    sky_on_elements_ = gather(space_.fine, sky_, {}, control_);
+    sweep_sky(block_radiance(space_.scene, space_.around, space_.sources.sky, outside(1.0, dark, 0.0)));
+  }
+
+  std::span<const float> in_direction(const std::vector<float>& block, std::size_t d) const {
+    return std::span(block).subspan(d * space_.around.count(), space_.around.count());
+  }
+
+  void sweep_sky(const std::vector<float>& block) {
+    for_each_chunk(space_.fine.set.count(), 1, control_, {}, [&](std::size_t d, std::size_t) {
+      if (std::ranges::all_of(in_direction(block, d), [](float r) { return r == 0.0f; })) return;
+      sweep_one(d, BlockInflow(space_.lookup, in_direction(block, d).data()), sky_);
+    });
   }
 
   void sweep_all(const std::vector<float>& block, std::vector<float>& radiance) {
     for_each_chunk(space_.fine.set.count(), 1, control_, {}, [&](std::size_t d, std::size_t) {
-      const auto light = std::span(block).subspan(d * space_.around.count(), space_.around.count());
-      const bool dark = &radiance == &sky_ && std::ranges::all_of(light, [](float r) { return r == 0.0f; });
-      if (dark) return;
-      std::vector<float> around;
-      sweep(space_.fine.plans[d], space_.fine.transmittance_of(d),
-            BlockInflow(space_.lookup, block.data() + d * space_.around.count()),
-            space_.fine.part_of(radiance, d), around, control_);
+      const BlockInflow from(space_.lookup, in_direction(block, d).data());
+      sweep_one(d, KeptInflow(from, border_[d]), radiance);
     });
+  }
+
+  void sweep_one(std::size_t d, const Inflow& inflow, std::vector<float>& radiance) {
+    std::vector<float> around;
+    sweep(space_.fine.plans[d], space_.fine.transmittance_of(d), inflow, space_.fine.part_of(radiance, d),
+          around, control_);
   }
 
   std::vector<float> nearest(const std::vector<float>& block) const {
@@ -135,7 +162,16 @@ class TreeSolver {
       constexpr float kRounding = 2e-6f;
       radiance[i] = scattered > kRounding * radiance[i] ? scattered : 0.0f;
     }
-    fill_elements(b, beam, diffuse, leaf, gather(space_.fine, radiance, given, control_));
+    fill_elements(b, beam, diffuse, leaf, gather_with_sky(radiance, given));
+  }
+
+  // Light of the sky on the elements is gathered with that of the first band.
+  std::vector<FacePair> gather_with_sky(const std::vector<float>& radiance,
+                                        const std::vector<FacePair>& given) {
+    if (!sky_on_elements_.empty()) return gather(space_.fine, radiance, given, control_);
+    GatheredPair light = gather_two(space_.fine, sky_, radiance, given, control_);
+    sky_on_elements_ = std::move(light.first);
+    return std::move(light.second);
   }
 
   // From the world's light on, until it is known where what the tree gives back is going; the rest is added
@@ -144,6 +180,7 @@ class TreeSolver {
                                 std::vector<float>& radiance) {
     DirectLight direct;
     if (beam > 0.0) direct = {sun_.elements, sun_.wood, beam};
+    border_.assign(space_.fine.set.count(), {});
     Orders orders, before;
     TreeSeries series;
     for (int i = 0; i < options_.max_iterations && !series.is_settled(options_.convergence); ++i) {
@@ -209,6 +246,7 @@ class TreeSolver {
   TreeSpace space_;
   Background background_;
   DirectSun sun_;
+  std::vector<std::vector<float>> border_;  // light of this band at the border, per direction; see KeptInflow
   std::vector<float> sky_;
   std::vector<FacePair> sky_on_elements_;
   int sweeps_ = 0;

@@ -11,7 +11,7 @@ namespace {
 struct Around {
   DirectionSet set = cubic_directions(26);
   DirectionLanes lanes = direction_lanes(set, std::vector<double>(set.half(), 1.2));
-  std::vector<CellRadiance> radiance = std::vector<CellRadiance>(20);
+  std::vector<CellRadiance> radiance = std::vector<CellRadiance>(20), other = radiance;
   ShootPart shoot;
   LeafPart part;
   Corners corners;
@@ -19,11 +19,12 @@ struct Around {
   explicit Around(std::uint64_t seed) {
     RandomStream random(seed, 0, RandomPurpose::kTestScene);
     const auto value = [&](double lo, double hi) { return static_cast<float>(random.uniform(lo, hi)); };
-    for (CellRadiance& cell : radiance)
-      for (std::size_t j = 0; j < set.half(); ++j) {
-        cell.near[j] = value(0, 200);
-        cell.far[j] = value(0, 200);
-      }
+    for (std::vector<CellRadiance>* cells : {&radiance, &other})
+      for (CellRadiance& cell : *cells)
+        for (std::size_t j = 0; j < set.half(); ++j) {
+          cell.near[j] = value(0, 200);
+          cell.far[j] = value(0, 200);
+        }
     part.normal = Vec3f(glm::normalize(Vec3(value(-1, 1), value(-1, 1), value(-1, 1))));
     part.cover = value(0, 1.2);
     shoot.escape = value(0.2, 1);
@@ -38,9 +39,9 @@ struct Around {
   PartInLight in_light(bool is_shoot, const FacePair& given) const {
     return {.part = part,
             .shoot = is_shoot ? &shoot : nullptr,
-            .radiance = radiance.data(),
             .corners = corners,
-            .given = given};
+            .radiance = {radiance.data(), other.data()},
+            .given = {given, {20, 70}}};
   }
 };
 
@@ -49,12 +50,28 @@ TEST(GatherPart, FormsAgree) {
     const Around a(seed);
     for (const bool is_shoot : {false, true}) {
       const PartInLight part = a.in_light(is_shoot, {100, 30});
-      const FacePair plain = gather_part_plain(part, a.lanes), best = gather_part_best()(part, a.lanes);
-      // Sums of 26 x 8 products, each rounded to 6e-8, in any order.
-      EXPECT_NEAR(plain.front, best.front, 1e-5f * plain.front) << seed << is_shoot;
-      EXPECT_NEAR(plain.back, best.back, 1e-5f * plain.back) << seed << is_shoot;
+      FacePair plain[2], best[2];
+      gather_part_plain(part, a.lanes, plain);
+      gather_part_best()(part, a.lanes, best);
+      for (int i = 0; i < 2; ++i) {
+        // Sums of 26 x 8 products, each rounded to 6e-8, in any order.
+        EXPECT_NEAR(plain[i].front, best[i].front, 1e-5f * plain[i].front) << seed << is_shoot;
+        EXPECT_NEAR(plain[i].back, best[i].back, 1e-5f * plain[i].back) << seed << is_shoot;
+      }
     }
   }
+}
+
+TEST(GatherPart, TakesOneKindOfLightAsItTakesTwo) {
+  const Around a(3);
+  PartInLight part = a.in_light(false, {100, 30});
+  FacePair both[2], one[2] = {{-1, -1}, {-1, -1}};
+  gather_part_best()(part, a.lanes, both);
+  part.radiance[1] = nullptr;
+  gather_part_best()(part, a.lanes, one);
+  EXPECT_EQ(one[0].front, both[0].front);
+  EXPECT_EQ(one[0].back, both[0].back);
+  EXPECT_EQ(one[1].front, -1.0f);
 }
 
 TEST(GatherPart, EvenLightIsEvenOnEveryFace) {
@@ -62,9 +79,10 @@ TEST(GatherPart, EvenLightIsEvenOnEveryFace) {
   for (CellRadiance& cell : a.radiance)
     for (std::size_t j = 0; j < a.set.half(); ++j) cell.near[j] = cell.far[j] = 2.0f;
   const auto sent = static_cast<float>(2.0 * kPi);  // of the same radiance
-  const FacePair light = gather_part_best()(a.in_light(false, {sent, sent}), a.lanes);
-  EXPECT_NEAR(light.front, sent, 1e-5f * sent);
-  EXPECT_NEAR(light.back, sent, 1e-5f * sent);
+  FacePair light[2];
+  gather_part_best()(a.in_light(false, {sent, sent}), a.lanes, light);
+  EXPECT_NEAR(light[0].front, sent, 1e-5f * sent);
+  EXPECT_NEAR(light[0].back, sent, 1e-5f * sent);
 }
 
 }  // namespace

@@ -89,6 +89,20 @@ TEST(ScatterLeaves, FormsAgree) {
   }
 }
 
+TEST(EmitLeaves, FormsAgree) {
+  for (const std::size_t leaves : {0, 1, 2, 7, 40}) {
+    Content plain = random_content(leaves, leaves + 1), best = plain;
+    const auto end = static_cast<std::uint32_t>(leaves);
+    emit_leaves_plain(plain.order(false), plain.lanes, plain.last.data(), 0, end, plain.cell);
+    emit_leaves_best()(best.order(false), best.lanes, best.last.data(), 0, end, best.cell);
+    for (std::size_t j = 0; j < kLanes; ++j) {
+      expect_near(plain.cell.source_near[j], best.cell.source_near[j]);
+      expect_near(plain.cell.source_far[j], best.cell.source_far[j]);
+      expect_near(plain.cell.depth[j], best.cell.depth[j]);
+    }
+  }
+}
+
 TEST(ScatterLeaves, AWhiteLeafInEvenLightKeepsItEven) {
   Content c = random_content(1, 3);
   c.bands[0] = {0.7f, 0.7f, 0.3f, 0.3f, 1.0f};
