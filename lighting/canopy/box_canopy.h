@@ -35,7 +35,10 @@ struct BoxCanopy {
   std::uint32_t nx = 1, ny = 1, nz = 1;
   bool periodic = false;
   Vec3 ground_normal{0, 0, 1};
-  std::vector<std::size_t> first_entry;  // per tree, and the end
+  // Trees (instances) tile by tile of the plane, so that the boxes of one are near those of the next and stay
+  // in the caches; the entries follow that order.
+  std::vector<std::uint32_t> order;
+  std::vector<std::size_t> first_entry;  // of each tree of `order`, and the end
   std::vector<CanopyEntry> entries;      // tree by tree, by rising voxel; index = (z * ny + y) * nx + x
 
   std::size_t voxel_count() const { return static_cast<std::size_t>(nx) * ny * nz; }

@@ -14,11 +14,21 @@ namespace {
 
 // Light left after each box of a row, and, added to `taken`, the share of it that is taken per depth: for a
 // box of depth t, (1 - exp(-t)) / t of what arrives. `part`: of the boxes' depth.
-void pass_boxes(std::int64_t count, float part, const float* box, float* light, float* taken) {
+void pass_parts(std::int64_t count, float part, const float* box, float* light, float* taken) {
   for (std::int64_t i = 0; i < count; ++i) {
     const float depth = part * box[i], left = exp_of_minus(depth);
     const float share = depth > 1e-3f ? (1.0f - left) / depth : 1.0f - 0.5f * depth;
     taken[i] += part * light[i] * share;
+    light[i] *= left;
+  }
+}
+
+// The same for light that crosses the layer at once: what is taken takes the depth's place.
+void pass_whole_boxes(std::int64_t count, float* box, float* light) {
+  for (std::int64_t i = 0; i < count; ++i) {
+    const float depth = box[i], left = exp_of_minus(depth);
+    const float share = depth > 1e-3f ? (1.0f - left) / depth : 1.0f - 0.5f * depth;
+    box[i] = light[i] * share;
     light[i] *= left;
   }
 }
@@ -32,28 +42,35 @@ std::int64_t floor_mod(std::int64_t a, std::int64_t n) { return (a % n + n) % n;
 void BoxSweep::fill_depths(double facing, std::span<const float> shown_per_area, const RunControl& control) {
   boxes_.assign(canopy_.voxel_count(), 0.0f);
   const auto per_m2 = static_cast<float>(1.0 / (canopy_.edge_m.x * canopy_.edge_m.y * facing));
-  for (std::size_t t = 0; t + 1 < canopy_.first_entry.size(); ++t) {
-    if (t % 1024 == 0) control.check();
-    const float factor = per_m2 * shown_per_area[t];
-    for (std::size_t e = canopy_.first_entry[t]; e < canopy_.first_entry[t + 1]; ++e)
+  for (std::size_t k = 0; k < canopy_.order.size(); ++k) {
+    if (k % 1024 == 0) control.check();
+    const float factor = per_m2 * shown_per_area[canopy_.order[k]];
+    for (std::size_t e = canopy_.first_entry[k]; e < canopy_.first_entry[k + 1]; ++e)
       boxes_[canopy_.entries[e].voxel] += factor * canopy_.entries[e].area_m2;
   }
 }
 
 // The ray that aims at column (x, y) crosses this part of the layer in column (x + shift_x, y + shift_y).
+// A part of 1 is the whole layer.
 void BoxSweep::pass_layer(std::uint32_t layer, float part, const Shift& shift) {
   const std::int64_t nx = canopy_.nx, ny = canopy_.ny;
-  const float* const boxes = boxes_.data() + static_cast<std::size_t>(layer) * canopy_.nx * canopy_.ny;
+  float* const boxes = boxes_.data() + static_cast<std::size_t>(layer) * canopy_.nx * canopy_.ny;
+  const auto pass_boxes = [&](std::int64_t count, float* row, float* light, float* taken) {
+    if (part == 1.0f)
+      pass_whole_boxes(count, row, light);
+    else
+      pass_parts(count, part, row, light, taken);
+  };
   for (std::int64_t y = 0; y < ny; ++y) {  // of the box
-    const float* const row = boxes + y * nx;
+    float* const row = boxes + y * nx;
     float* const taken = taken_.data() + y * nx;
     if (canopy_.periodic) {
       float* const light = light_.data() + floor_mod(y - shift.y, ny) * nx;
       const std::int64_t first = floor_mod(-shift.x, nx);  // ray over box 0
-      pass_boxes(nx - first, part, row, light + first, taken);
-      pass_boxes(first, part, row + (nx - first), light, taken + (nx - first));
+      pass_boxes(nx - first, row, light + first, taken);
+      pass_boxes(first, row + (nx - first), light, taken + (nx - first));
     } else {
-      pass_boxes(nx, part, row, light_.data() + y * nx, taken);
+      pass_boxes(nx, row, light_.data() + y * nx, taken);
     }
   }
 }
@@ -71,13 +88,13 @@ void BoxSweep::move_window(std::int64_t by_x, std::int64_t by_y) {
 
 void BoxSweep::attribute(double facing, std::span<const float> shown_per_area, SweptLight& out,
                          const RunControl& control) const {
-  out.intercepted_m2.assign(canopy_.first_entry.size() - 1, 0.0);
-  for (std::size_t t = 0; t < out.intercepted_m2.size(); ++t) {
-    if (t % 1024 == 0) control.check();
+  out.intercepted_m2.assign(canopy_.order.size(), 0.0);
+  for (std::size_t k = 0; k < canopy_.order.size(); ++k) {
+    if (k % 1024 == 0) control.check();
     double sum = 0.0;
-    for (std::size_t e = canopy_.first_entry[t]; e < canopy_.first_entry[t + 1]; ++e)
+    for (std::size_t e = canopy_.first_entry[k]; e < canopy_.first_entry[k + 1]; ++e)
       sum += boxes_[canopy_.entries[e].voxel] * canopy_.entries[e].area_m2;
-    out.intercepted_m2[t] = sum * shown_per_area[t];
+    out.intercepted_m2[canopy_.order[k]] = sum * shown_per_area[canopy_.order[k]];
   }
   const double column_m2 = facing * canopy_.edge_m.x * canopy_.edge_m.y;
   out.ground = light_;
@@ -94,7 +111,7 @@ int BoxSweep::parts_of_a_layer(const Vec3& to_source, double facing) const {
 
 SweptLight BoxSweep::run(const Vec3& to_source, std::span<const float> shown_per_area, std::uint64_t seed,
                          const RunControl& control) {
-  SUNFLECK_EXPECTS(shown_per_area.size() + 1 == canopy_.first_entry.size());
+  SUNFLECK_EXPECTS(shown_per_area.size() == canopy_.order.size());
   const double facing = canopy_.facing(to_source);
   SUNFLECK_EXPECTS(facing > 0.0);
   fill_depths(facing, shown_per_area, control);
@@ -104,7 +121,7 @@ SweptLight BoxSweep::run(const Vec3& to_source, std::span<const float> shown_per
   Shift before;
   for (std::uint32_t k = canopy_.nz; k-- > 0;) {
     control.check();
-    taken_.assign(light_.size(), 0.0f);
+    if (parts > 1 || taken_.empty()) taken_.assign(light_.size(), 0.0f);
     for (int part = parts; part-- > 0;) {
       const double height_m = (k + (part + 0.5) / parts) * canopy_.height_m;
       const Vec2 way = Vec2(to_source) / canopy_.edge_m * (height_m / facing);
@@ -115,7 +132,9 @@ SweptLight BoxSweep::run(const Vec3& to_source, std::span<const float> shown_per
       pass_layer(k, static_cast<float>(1.0 / parts), shift);
       before = shift;
     }
-    std::copy(taken_.begin(), taken_.end(), boxes_.begin() + static_cast<std::ptrdiff_t>(k * taken_.size()));
+    if (parts > 1)
+      std::copy(taken_.begin(), taken_.end(),
+                boxes_.begin() + static_cast<std::ptrdiff_t>(k * taken_.size()));
   }
   if (!canopy_.periodic) move_window(-before.x, -before.y);
   SweptLight out;

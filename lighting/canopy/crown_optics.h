@@ -10,7 +10,7 @@
 
 namespace sunfleck {
 
-// By zenith angle of the light (from the vertical of the ground), averaged over azimuth.
+// By zenith angle of the light (from the vertical, along which trees stand), averaged over azimuth.
 struct CrownOptics {
   std::vector<double> zenith_rad;      // nodes, rising
   std::vector<double> alone_m2;        // intercepted, of facing light, at scale 1

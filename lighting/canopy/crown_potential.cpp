@@ -1,6 +1,8 @@
 // See crown_potential.h.
 #include "lighting/canopy/crown_potential.h"
 
+#include <algorithm>
+
 #include "lighting/canopy/crown_rays.h"
 #include "sim/base/contract.h"
 #include "sim/base/parallel.h"
@@ -27,9 +29,11 @@ ResponseTable crown_potential(const StandScene& scene, const LightSource& source
   std::vector<float> quantum_m2(table.value.size());
   const auto trees = trees_by_prototype(forest);
   for_each_chunk(trees.size(), 1, control, "trees alone", [&](std::size_t p, std::size_t) {
-    if (trees[p].empty()) return;
+    const auto asked = [&](std::size_t t) { return scene.is_asked(t); };
+    if (std::none_of(trees[p].begin(), trees[p].end(), asked)) return;
     const CrownAlone crown(forest, p, control);
     for (const std::size_t t : trees[p]) {
+      if (!scene.is_asked(t)) continue;
       const Instance& tree = forest.instances[t];
       const double scale2 = static_cast<double>(tree.scale) * tree.scale;
       RandomStream random(seed, t, RandomPurpose::kStandRays);
@@ -43,9 +47,11 @@ ResponseTable crown_potential(const StandScene& scene, const LightSource& source
       }
     }
   });
+  double asked = 0.0;
+  for (std::size_t t = 0; t < table.targets; ++t) asked += scene.is_asked(t) ? 1.0 : 0.0;
   for (std::size_t d = 0; d < source.size(); ++d)
     for (std::size_t t = 0; t < table.targets; ++t)
-      table.quantum[d] += quantum_m2[d * table.targets + t] / static_cast<double>(table.targets);
+      table.quantum[d] += quantum_m2[d * table.targets + t] / asked;
   return table;
 }
 

@@ -12,7 +12,7 @@
 namespace sunfleck {
 
 // m2 of facing light per instance, leaves and wood. `rays` per direction and tree; 0 skips the direction.
-// Errors by the mean worth of a ray over the trees.
+// Trees of surroundings (StandScene::is_asked) stay at 0. Errors by the mean worth of a ray over the trees.
 ResponseTable crown_potential(const StandScene& scene, const LightSource& source,
                               const std::vector<int>& rays, std::uint64_t seed, const RunControl& control);
 

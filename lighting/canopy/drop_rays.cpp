@@ -48,17 +48,17 @@ DropRays::DropRays(const StandScene& scene, const Vec3& to_source, double half_a
   quantum_m2_ = facing * area_m2 / static_cast<double>(count());
 }
 
-// The map and the shadow of the box round the forest, with a margin as wide as the forest is high for the
-// light that the ground there throws back.
+// The map and the shadow of the box round all that is asked about; where nothing surrounds it, with a margin
+// as wide as the forest is high for the light that the ground there throws back.
 void DropRays::cover(const StandScene& scene) {
   const StandGround& ground = scene.ground();
   lo_m_ = ground.lo_m;
   size_m_ = ground.size_m();
   if (ground.periodic) return;
   Vec2 hi = lo_m_ + size_m_;
-  const Box& box = scene.bounds();
+  const Box& box = scene.region();
   const Vec3 n = ground.normal;
-  const double margin = scene.ceiling_m();
+  const double margin = scene.has_surroundings() ? 0.0 : scene.ceiling_m();
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3 p((corner & 1) ? box.hi.x : box.lo.x, (corner & 2) ? box.hi.y : box.lo.y,
                  (corner & 4) ? box.hi.z : box.lo.z);
@@ -108,6 +108,12 @@ DropRay DropRays::ray(std::size_t i, RandomStream& random) const {
     // Height above the ground plane grows by dot(towards, n) / n.z per metre.
     const double way_m = 1.001 * scene_.ceiling_m() * normal.z / glm::dot(towards, normal);
     ray.origin_m = ray.aim_m + way_m * towards;
+    return ray;
+  }
+  if (scene_.has_surroundings() && !scene_.ground().contains(aim.x, aim.y) &&
+      !entry_of(scene_.region(), ray.aim_m, ray.direction)) {
+    ray.may_hit = false;
+    ray.is_far = true;
     return ray;
   }
   const auto enter = entry_of(scene_.bounds(), ray.aim_m, ray.direction);

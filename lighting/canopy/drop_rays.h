@@ -17,7 +17,8 @@ struct DropRay {
   Vec3 direction{0};    // downwards, unit
   Vec3 aim_m{0};        // where it would meet the ground
   bool may_hit = true;  // passes the box round the forest
-  bool is_far = false;  // meets the ground where neither the map nor the forest is near
+  // Meets the ground where neither the map nor the forest is near, or passes surroundings only.
+  bool is_far = false;
 };
 
 class DropRays {

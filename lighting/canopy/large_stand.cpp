@@ -145,8 +145,7 @@ class LargeStandEvaluation {
   }
 
   Response respond(BoxSweep& sweep, const Vec3& to_source, std::uint64_t seed) const {
-    const BoxCanopy& canopy = prepared_.canopy;
-    const double zenith = std::acos(std::clamp(glm::dot(to_source, canopy.ground_normal), -1.0, 1.0));
+    const double zenith = std::acos(std::clamp(to_source.z, -1.0, 1.0));  // trees stand upright on slopes
     std::vector<float> shown_of(prepared_.crowns.size());
     std::vector<double> alone_of(prepared_.crowns.size());
     for (std::size_t p = 0; p < shown_of.size(); ++p) {

@@ -35,7 +35,8 @@ struct LargeStandPrepared {
 LargeStandPrepared prepare_large_stand(const Forest& forest, const LargeStandOptions& options,
                                        const RunControl& control);
 
-// Tables without standard errors (0): sweeps have no noise but that of the crowns' rays.
+// Tables without standard errors (0): sweeps have no noise but that of the crowns' rays. How far they are off
+// is measured by large_stand_check.h.
 struct LargeStandLight {
   std::vector<std::string> intervals;
   StandGround map;

@@ -33,8 +33,9 @@ std::vector<double> ground_energy(const LightSource& source, const StandGround& 
   return energy;
 }
 
-// 95th percentile over the trees of the relative standard error of what they intercept in all intervals.
-double tree_error(const DirectionalBasis& basis) {
+// 95th percentile over the trees that are asked about of the relative standard error of what they intercept
+// in all intervals.
+double tree_error(const DirectionalBasis& basis, const StandScene& scene) {
   const std::size_t trees = basis.from_sun.tree_intercepted_m2.targets;
   std::vector<double> value(trees), variance(trees), relative;
   const auto add = [&](const ResponseTable& table, const std::vector<double>& strength) {
@@ -47,8 +48,9 @@ double tree_error(const DirectionalBasis& basis) {
   add(basis.from_sun.tree_intercepted_m2, total_strength(basis.sky.sun));
   add(basis.from_sky.tree_intercepted_m2, total_strength(basis.sky.sky));
   for (std::size_t t = 0; t < trees; ++t)
-    relative.push_back(value[t] > 0.0 ? std::sqrt(variance[t]) / value[t] : 1.0);
-  const auto place = relative.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(trees - 1));
+    if (scene.is_asked(t)) relative.push_back(value[t] > 0.0 ? std::sqrt(variance[t]) / value[t] : 1.0);
+  const auto last = static_cast<double>(relative.size() - 1);
+  const auto place = relative.begin() + static_cast<std::ptrdiff_t>(0.95 * last);
   std::nth_element(relative.begin(), place, relative.end());
   return *place;
 }
@@ -92,7 +94,7 @@ DirectionalBasis prepare_stand_light(const StandScene& scene, const OpticsTable&
     // A tenth of the rays tells how many it takes.
     rays *= 0.1;
     drop(false);
-    const double off = tree_error(basis) / request.tree_relative_error;
+    const double off = tree_error(basis, scene) / request.tree_relative_error;
     rays *= std::clamp(off * off, 10.0, 1000.0);
   }
   drop(request.scattering);

@@ -71,7 +71,8 @@ struct GroundTables {
   std::vector<IntervalTable> scattered;       // per band: energy per m2 of map
 };
 
-// [interval][instance of the forest]
+// [interval][instance of the forest]. Trees with virtual numbers (surroundings that nobody measured) have no
+// potential, and in a forest that does not repeat only the light of rays that pass near what is asked about.
 struct TreeTables {
   IntervalTable intercepted;            // energy, unscattered, leaves and wood
   IntervalTable potential;              // the same alone in the open

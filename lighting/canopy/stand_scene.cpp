@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sim/base/error.h"
+#include "sim/forest/forest_spec.h"
 
 namespace sunfleck {
 
@@ -55,6 +56,7 @@ StandScene::StandScene(const Forest& forest, const StandSceneOptions& options, c
     throw_invalid("forest", "has no trees", "at least one tree with leaves");
   fit_ground(options);
   measure_height();
+  choose_region();
   sum_leaf_area();
   rays_ = std::make_unique<RayScene>(forest, RayScene::Options{}, control);
 }
@@ -97,6 +99,26 @@ void StandScene::measure_height() {
   if (ceiling_m_ / layer_m_ > kMostLayers)
     throw Error(ErrorKind::kLimitExceeded, "stand.layer_m", "makes more than 10,000 layers",
                 std::to_string(ceiling_m_ / kMostLayers) + " m or more");
+}
+
+void StandScene::choose_region() {
+  for (const Instance& tree : forest_.instances) asked_.push_back(is_virtual(tree.tree) ? 0 : 1);
+  const auto asked = static_cast<std::size_t>(std::count(asked_.begin(), asked_.end(), 1));
+  if (asked == 0) asked_.assign(asked_.size(), 1);
+  region_ = bounds_;
+  if (asked == 0 || asked == asked_.size() || ground_.periodic) return;
+  has_surroundings_ = true;
+  const double margin_m = 0.5 * ceiling_m_;
+  Vec2 lo = ground_.lo_m, hi = ground_.lo_m + ground_.size_m();
+  for (std::size_t i = 0; i < asked_.size(); ++i) {
+    const Instance& tree = forest_.instances[i];
+    if (asked_[i] == 0) continue;
+    const double reach_m = tree.scale * prototype_reach_m(forest_.prototypes[tree.prototype.value]);
+    lo = glm::min(lo, Vec2(tree.position_m) - reach_m);
+    hi = glm::max(hi, Vec2(tree.position_m) + reach_m);
+  }
+  region_.lo = {glm::max(lo - margin_m, Vec2(bounds_.lo)), bounds_.lo.z};
+  region_.hi = {glm::min(hi + margin_m, Vec2(bounds_.hi)), bounds_.hi.z};
 }
 
 std::size_t StandScene::layer_at(const Vec3& point_m) const {

@@ -57,6 +57,13 @@ class StandScene {
   std::size_t layer_at(const Vec3& point_m) const;  // by height above the ground plane
   double height_above_ground(const Vec3& p) const { return p.z - forest_.terrain.height_at(p.x, p.y); }
   const Box& bounds() const { return bounds_; }
+  // Where light is asked for: everything; in a forest that does not repeat and has surroundings (trees with
+  // virtual numbers, which nobody measured), the map and the other trees, half the forest's height beyond
+  // them for what is scattered in from the side.
+  const Box& region() const { return region_; }
+  bool has_surroundings() const { return has_surroundings_; }
+  // Is anything asked about the tree? Of surroundings only if there is nothing else.
+  bool is_asked(std::size_t instance) const { return asked_[instance] != 0; }
   double ceiling_m() const { return ceiling_m_; }  // above the ground plane, nothing stands higher
   const std::vector<double>& tree_leaf_area_m2() const { return tree_leaf_area_m2_; }
   const std::vector<double>& layer_leaf_area_m2() const { return layer_leaf_area_m2_; }
@@ -64,11 +71,14 @@ class StandScene {
  private:
   void fit_ground(const StandSceneOptions& options);
   void measure_height();
+  void choose_region();
   void sum_leaf_area();
 
   const Forest& forest_;
   StandGround ground_;
-  Box bounds_;
+  Box bounds_, region_;
+  bool has_surroundings_ = false;
+  std::vector<char> asked_;
   double layer_m_, ceiling_m_ = 0;
   std::vector<double> tree_leaf_area_m2_, layer_leaf_area_m2_;
   std::unique_ptr<RayScene> rays_;

@@ -15,6 +15,8 @@ void check(const ForestSpec& forest, const CalibrationOptions& o) {
     throw_invalid("calibrate.leaf_area_factor", "has no range", "0.001 <= least < most <= 1000");
   if (!(o.most_stems_factor > 0 && o.most_stems_factor <= 100))
     throw_invalid("calibrate.most_stems_factor", "is out of range", "above 0, up to 100");
+  if (!(o.damping_prior_sd > 0 && o.damping_prior_sd <= 100))
+    throw_invalid("calibrate.damping_prior_sd", "is out of range", "above 0, up to 100");
   if (!(o.confidence > 0 && o.confidence < 1))
     throw_invalid("calibrate.confidence", "is no probability", "between 0 and 1, say 0.95");
   if (o.understorey && !forest.understorey.add)
@@ -59,12 +61,25 @@ std::vector<EmulatorAxis> axes_of(const CalibrationOptions& o) {
   return axes;
 }
 
-// Only the sensors that were measured.
-StandStudySpec with_sensors(StandStudySpec study, const std::vector<std::size_t>& which) {
-  std::vector<SensorRow> rows;
-  for (const std::size_t i : which) rows.push_back(study.sensors[i]);
-  study.sensors = rows;
-  return study;
+// Of the sensors that were measured.
+LightEmulator with_sensors(const LightEmulator& all, const std::vector<std::size_t>& which) {
+  LightEmulator some{all.axes, {}};
+  for (const std::vector<double>& light : all.values) {
+    some.values.emplace_back();
+    for (const std::size_t i : which) some.values.back().push_back(light[i]);
+  }
+  return some;
+}
+
+double mean_of(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double v : values) sum += v;
+  return sum / static_cast<double>(values.size());
+}
+
+std::vector<double> damped(std::vector<double> light, double mean, double share) {
+  for (double& v : light) v = mean + share * (v - mean);
+  return light;
 }
 
 // Runs of light at all nodes.
@@ -74,22 +89,22 @@ class Runs {
        const CalibrationOptions& options, const RunControl& control)
       : forest_(forest), species_(species), study_(study), options_(options), control_(control) {}
 
-  void at_nodes(Calibration& c) const {
-    for (const double leaf : c.emulator.axes[0].nodes) {
-      if (c.emulator.axes.size() == 1)
-        run(std::exp(leaf), 1, c);
+  void at_nodes(LightEmulator& emulator, Calibration& c) const {
+    for (const double leaf : emulator.axes[0].nodes) {
+      if (emulator.axes.size() == 1)
+        run(std::exp(leaf), 1, emulator, c);
       else
-        for (const double stems : c.emulator.axes[1].nodes) run(std::exp(leaf), std::expm1(stems), c);
+        for (const double stems : emulator.axes[1].nodes) run(std::exp(leaf), std::expm1(stems), emulator, c);
     }
   }
 
  private:
-  void run(double leaf_factor, double stems_factor, Calibration& c) const {
+  void run(double leaf_factor, double stems_factor, LightEmulator& emulator, Calibration& c) const {
     ForestSpec forest = forest_;
     forest.leaf_area_factor *= leaf_factor;
     forest.understorey.stems_factor *= stems_factor;
     const ExpectedLight light = expected_light(forest, species_, study_, options_.realisations, control_);
-    c.emulator.values.push_back(light.pacl);
+    emulator.values.push_back(light.pacl);
     c.runs += light.realisations;
     if (c.notes.empty()) c.notes = light.notes;
   }
@@ -100,17 +115,22 @@ class Runs {
   const RunControl& control_;
 };
 
-void judge(const CalibrationOptions& o, Calibration& c) {
+void judge(const CalibrationOptions& o, const LightEmulator& all, Calibration& c) {
   std::vector<double> best{std::log(c.parameters[0].value)}, one{0.0};
   if (o.understorey) best.push_back(std::log1p(c.parameters[1].value)), one.push_back(std::log1p(1.0));
-  c.fitted = c.emulator.at(best);
+  const double share = o.damping ? c.parameters.back().value : 1.0;
+  const std::vector<double> at_best = c.emulator.at(best);
+  c.fitted = damped(at_best, mean_of(at_best), share);
+  c.told = damped(all.at(best), mean_of(at_best), share);
   c.fit = sensor_fit(c.fitted, c.measured);
   if (o.least_factor <= 1 && o.most_factor >= 1 && o.most_stems_factor >= 1) {
     c.before = c.emulator.at(one);
     c.fit_before = sensor_fit(c.before, c.measured);
   }
   for (const CalibratedParameter& p : c.parameters) {
-    if (p.at_edge)
+    if (p.name == "pattern_share" && p.at_edge)
+      c.notes.push_back("the sensors see nothing of the modelled pattern of light: only its mean is used");
+    else if (p.at_edge)
       c.notes.push_back(p.name + " fits best at the edge of its range: widen it, or doubt the stand");
     else if (p.low_open || p.high_open)
       c.notes.push_back("the interval of " + p.name + " is open " +
@@ -127,13 +147,13 @@ Calibration calibrate(const ForestSpec& forest, const SpeciesLibrary& species, c
                       const CalibrationOptions& options, const RunControl& control) {
   check(forest, options);
   Calibration c;
-  c.sensors = measured_sensors(study, options.understorey ? 2 : 1);
+  c.sensors = measured_sensors(study, 1u + (options.understorey ? 1u : 0u) + (options.damping ? 1u : 0u));
   for (const std::size_t i : c.sensors) c.measured.push_back(*study.sensors[i].pacl);
-  c.emulator.axes = axes_of(options);
-  const StandStudySpec only_measured = with_sensors(study, c.sensors);
-  Runs(forest, species, only_measured, options, control).at_nodes(c);
-  c.parameters = fit_parameters(c.emulator, c.measured, options.confidence);
-  judge(options, c);
+  LightEmulator all{axes_of(options), {}};
+  Runs(forest, species, study, options, control).at_nodes(all, c);
+  c.emulator = with_sensors(all, c.sensors);
+  c.parameters = fit_parameters(c.emulator, c.measured, fit_options(options));
+  judge(options, all, c);
   return c;
 }
 

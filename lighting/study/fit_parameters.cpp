@@ -13,14 +13,62 @@ namespace {
 
 constexpr std::size_t kMostForAllSplits = 20, kDrawnSplits = 10000;
 
-std::vector<double> sums_of_squares(const ParameterNet& net, const std::vector<double>& measured) {
-  std::vector<double> sums;
-  for (const std::vector<double>& light : net.light) {
-    double sum = 0;
-    for (std::size_t s = 0; s < measured.size(); ++s) sum += std::pow(light[s] - measured[s], 2);
-    sums.push_back(sum);
+// What a set of sensors says at one place of the net: with L the mean of the light there, sums of products of
+// r = measured - L and x = light - L.
+struct Moments {
+  double rr = 0, rx = 0, xx = 0;
+  void operator+=(const Moments& o) { rr += o.rr, rx += o.rx, xx += o.xx; }
+  double squares(double share) const { return rr - 2 * share * rx + share * share * xx; }
+};
+
+// [place][sensor]
+using PlaceMoments = std::vector<std::vector<Moments>>;
+
+// Every `stride`-th step of the first axis.
+PlaceMoments moments_of(const ParameterNet& net, const std::vector<double>& measured, std::size_t stride) {
+  PlaceMoments all;
+  for (std::size_t p = 0; p < net.size(); ++p) {
+    if (net.step_of(p, 0) % stride != 0) continue;
+    double mean = 0;
+    for (const double light : net.light[p]) mean += light / static_cast<double>(measured.size());
+    all.emplace_back();
+    for (std::size_t s = 0; s < measured.size(); ++s) {
+      const double r = measured[s] - mean, x = net.light[p][s] - mean;
+      all.back().push_back({r * r, r * x, x * x});
+    }
   }
+  return all;
+}
+
+Moments sum_of(const std::vector<Moments>& of_sensors) {
+  Moments sum;
+  for (const Moments& m : of_sensors) sum += m;
+  return sum;
+}
+
+std::vector<Moments> sums_of(const PlaceMoments& places) {
+  std::vector<Moments> sums;
+  for (const auto& place : places) sums.push_back(sum_of(place));
   return sums;
+}
+
+// The share of the pattern that fits best and what it costs: squares and, with a prior, its penalty.
+struct Share {
+  double value = 1, cost = 0;
+};
+Share best_share(const Moments& m, double penalty, bool damping) {
+  if (!damping || !(m.xx + penalty > 0)) return {1, m.squares(1)};
+  const double share = std::max(0.0, (m.rx + penalty) / (m.xx + penalty));
+  return {share, std::max(0.0, m.squares(share)) + penalty * (share - 1) * (share - 1)};
+}
+
+// Weight of the prior against squares: variance that the unpenalised fit leaves, over the prior's.
+double penalty_of(const std::vector<Moments>& places, std::size_t sensors, std::size_t parameters,
+                  const FitOptions& o) {
+  if (!o.damping) return 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Moments& m : places) least = std::min(least, best_share(m, 0, true).cost);
+  return least / static_cast<double>(sensors - parameters) / (o.damping_prior_sd * o.damping_prior_sd);
 }
 
 // Least sum for each step of an axis, over the other axis.
@@ -64,30 +112,36 @@ CalibratedParameter estimate(const ParameterNet& net, const std::vector<double>&
   return p;
 }
 
-// Squared errors of one split: fitted on the sensors of `half`, told for the others.
-double told_error(const std::vector<std::vector<double>>& squares, const std::vector<bool>& half) {
-  double best = std::numeric_limits<double>::infinity(), told = 0;
-  for (const std::vector<double>& at_place : squares) {
-    double inside = 0, outside = 0;
-    for (std::size_t s = 0; s < half.size(); ++s) (half[s] ? inside : outside) += at_place[s];
-    if (inside < best) best = inside, told = outside;
+// The share's own interval: at each place the cost is a parabola in it.
+CalibratedParameter share_estimate(const std::vector<Moments>& places, double penalty, std::size_t best,
+                                   double limit) {
+  CalibratedParameter p{"pattern_share", best_share(places[best], penalty, true).value};
+  p.low = p.high = p.value;
+  for (const Moments& m : places) {
+    const Share here = best_share(m, penalty, true);
+    if (here.cost > limit || !(m.xx + penalty > 0)) continue;
+    const double reach = std::sqrt((limit - here.cost) / (m.xx + penalty));
+    p.low = std::max(0.0, std::min(p.low, here.value - reach));
+    p.high = std::max(p.high, here.value + reach);
   }
-  const auto others = std::count(half.begin(), half.end(), false);
-  return std::sqrt(told / static_cast<double>(others));
+  p.at_edge = p.value == 0;
+  return p;
 }
 
-// All places of the net; with two parameters every fourth step of the first (6 %).
-std::vector<std::vector<double>> squared_errors(const ParameterNet& net,
-                                                const std::vector<double>& measured) {
-  const std::size_t stride = net.axis.size() == 2 ? 4 : 1;
-  std::vector<std::vector<double>> squares;
-  for (std::size_t p = 0; p < net.size(); ++p) {
-    if (net.step_of(p, 0) % stride != 0) continue;
-    squares.emplace_back();
-    for (std::size_t s = 0; s < measured.size(); ++s)
-      squares.back().push_back(std::pow(net.light[p][s] - measured[s], 2));
+// Error of one split: fitted on the sensors of `half`, told for the others.
+double told_error(const PlaceMoments& places, const std::vector<bool>& half, std::size_t parameters,
+                  const FitOptions& o) {
+  std::vector<Moments> inside(places.size()), outside(places.size());
+  for (std::size_t p = 0; p < places.size(); ++p)
+    for (std::size_t s = 0; s < half.size(); ++s) (half[s] ? inside[p] : outside[p]) += places[p][s];
+  const auto others = static_cast<std::size_t>(std::count(half.begin(), half.end(), false));
+  const double penalty = penalty_of(inside, half.size() - others, parameters, o);
+  double least = std::numeric_limits<double>::infinity(), told = 0;
+  for (std::size_t p = 0; p < places.size(); ++p) {
+    const Share share = best_share(inside[p], penalty, o.damping);
+    if (share.cost < least) least = share.cost, told = outside[p].squares(share.value);
   }
-  return squares;
+  return std::sqrt(std::max(0.0, told) / static_cast<double>(others));
 }
 
 void shuffle(std::vector<bool>& half, std::uint64_t split) {
@@ -103,29 +157,36 @@ void shuffle(std::vector<bool>& half, std::uint64_t split) {
 }  // namespace
 
 std::vector<CalibratedParameter> fit_parameters(const LightEmulator& emulator,
-                                                const std::vector<double>& measured, double confidence) {
-  const std::size_t p = emulator.axes.size(), n = measured.size();
+                                                const std::vector<double>& measured, const FitOptions& o) {
+  const std::size_t axes = emulator.axes.size(), p = axes + (o.damping ? 1 : 0), n = measured.size();
   SUNFLECK_EXPECTS(emulator.sensors() == n && n > p);
   const ParameterNet net(emulator);
-  const std::vector<double> sums = sums_of_squares(net, measured);
-  const auto best = static_cast<std::size_t>(std::min_element(sums.begin(), sums.end()) - sums.begin());
-  const double t = student_t(confidence, static_cast<int>(n - p));
-  const double limit = sums[best] * (1 + t * t / static_cast<double>(n - p));
+  const std::vector<Moments> places = sums_of(moments_of(net, measured, 1));
+  const double penalty = penalty_of(places, n, p, o);
+  std::vector<double> costs;
+  for (const Moments& m : places) costs.push_back(best_share(m, penalty, o.damping).cost);
+  const auto best = static_cast<std::size_t>(std::min_element(costs.begin(), costs.end()) - costs.begin());
+  const double t = student_t(o.confidence, static_cast<int>(n - p));
+  const double limit = costs[best] * (1 + t * t / static_cast<double>(n - p));
   std::vector<CalibratedParameter> parameters;
-  for (std::size_t axis = 0; axis < p; ++axis) parameters.push_back(estimate(net, sums, best, limit, axis));
+  for (std::size_t axis = 0; axis < axes; ++axis)
+    parameters.push_back(estimate(net, costs, best, limit, axis));
+  if (o.damping) parameters.push_back(share_estimate(places, penalty, best, limit));
   return parameters;
 }
 
-SplitHalf split_half(const LightEmulator& emulator, const std::vector<double>& measured) {
-  const std::size_t n = measured.size();
+SplitHalf split_half(const LightEmulator& emulator, const std::vector<double>& measured,
+                     const FitOptions& o) {
+  const std::size_t n = measured.size(), parameters = emulator.axes.size() + (o.damping ? 1 : 0);
   SUNFLECK_EXPECTS(emulator.sensors() == n && n >= 2);
-  const auto squares = squared_errors(ParameterNet(emulator), measured);
+  SplitHalf answer;
+  if (n / 2 <= parameters) return answer;
+  const PlaceMoments places = moments_of(ParameterNet(emulator), measured, emulator.axes.size() == 2 ? 4 : 1);
   std::vector<bool> half(n, false);
   std::fill(half.begin() + static_cast<std::ptrdiff_t>(n - n / 2), half.end(), true);
   double sum = 0, sum2 = 0;
-  SplitHalf answer;
   for (bool more = true; more;) {
-    const double error = told_error(squares, half);
+    const double error = told_error(places, half, parameters, o);
     sum += error, sum2 += error * error;
     ++answer.splits;
     if (n <= kMostForAllSplits)

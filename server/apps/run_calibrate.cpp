@@ -54,9 +54,10 @@ void run_calibrate(const CalibrateOptions& o, const RunControl& control) {
   for (const CalibratedParameter& p : c.parameters) print_parameter(p, options.confidence);
   if (c.fit_before) print_fit("before", *c.fit_before);
   print_fit("fitted", c.fit);
-  const SplitHalf halves = split_half(c.emulator, c.measured);
-  std::printf("%-24s rmse %.4f +- %.4f on the half that was not fitted, %zu splits\n",
-              "fitted on half of them", halves.rmse, halves.spread, halves.splits);
+  const SplitHalf halves = split_half(c.emulator, c.measured, fit_options(options));
+  if (halves.splits > 0)
+    std::printf("%-24s rmse %.4f +- %.4f on the half that was not fitted, %zu splits\n",
+                "fitted on half of them", halves.rmse, halves.spread, halves.splits);
   for (const std::string& note : c.notes) std::printf("note         %s\n", note.c_str());
   if (!o.csv.empty()) {
     write_whole_file(o.csv, table_of(c, study));

@@ -99,6 +99,7 @@ void read_crown_fill(const ConfigTable& table, ForestSpec& spec) {
                        : LeafAreaSource::kDensity;
   spec.element_area_m2 = table.number_or("element_area_m2", spec.element_area_m2, {0, 100});
   spec.rim_power = table.number_or("rim_power", spec.rim_power, {0, 20});
+  spec.height_power = table.number_or("height_power", spec.height_power, {0, 20});
   spec.branch_share = table.number_or("branch_share", spec.branch_share, {0, 10});
   if (const auto under = table.table_if("understorey")) read_understorey(*under, spec.understorey);
 }
@@ -110,6 +111,8 @@ void read_geometry(const ConfigTable& table, ForestSpec& spec) {
   spec.trees = trees == "crown" ? TreeSource::kCrown : TreeSource::kLsystem;
   spec.elements_per_tree =
       static_cast<int>(table.integer_or("elements_per_tree", spec.elements_per_tree, {1, 1e7}));
+  const bool grown = table.choice_or("crown_filling", "leaves", {"leaves", "grown"}) == "grown";
+  spec.filling = grown ? CrownFilling::kGrown : CrownFilling::kLeaves;
   if (const auto clumps = table.table_if("clumps")) {
     spec.clumps.radius_m = clumps->number("radius_m", {0, 100});
     spec.clumps.elements = static_cast<int>(clumps->integer_or("elements", spec.clumps.elements, {1, 1e6}));

@@ -59,6 +59,13 @@ enum class TreeSource {
   kCrown     // one prototype per tree: its own crown shape filled with leaves
 };
 
+// kCrown: what fills a crown.
+enum class CrownFilling {
+  kLeaves,  // leaves of the species' angles, placed by the keys below
+  kGrown    // a tree of the species' grammar moved into the shape, see crown_filling.h; leaves where there is
+            // none
+};
+
 // What stands beyond the border of an inventoried plot, see surroundings.h.
 enum class Surroundings { kNone, kPeriodic, kMirrored, kSimilar };
 
@@ -96,12 +103,14 @@ struct ForestSpec {
   std::optional<PlotPolygon> plot;  // the inventoried area; without: the rectangle around the trees
   Surroundings surroundings = Surroundings::kNone;
   double surroundings_width_m = 0;                      // 0: twice the height of the tall trees
+  CrownFilling filling = CrownFilling::kLeaves;         // kCrown
   int elements_per_tree = 1000;                         // kCrown: foliage elements per tree
   LeafClumps clumps;                                    // kCrown
   double leaf_area_factor = 1;                          // kCrown: multiplies the leaf area of every tree
   LeafAreaSource leaf_area = LeafAreaSource::kDensity;  // kCrown
   double element_area_m2 = 0;  // kCrown: above 0: leaf area of an element, instead of elements_per_tree
   double rim_power = 0;        // kCrown: see CrownFill
+  double height_power = 0;     // kCrown: see CrownFill
   double branch_share = 0;     // kCrown: see CrownFill
   Understorey understorey;     // only with an inventory
   double detail = 1.0;         // kLsystem: share of the foliage elements kept, (0, 1]

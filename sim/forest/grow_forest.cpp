@@ -130,7 +130,7 @@ Forest grow_forest(const ForestSpec& spec, const SpeciesLibrary& species, const 
   forest.materials = materials_of(stand);
   switch (spec.trees) {
     case TreeSource::kCrown:
-      grow_crowns(spec, stand, control, forest);
+      grow_crowns(spec, stand, control, forest, said);
       break;
     case TreeSource::kLsystem:
       grow_lsystems(spec, stand, control, forest, said);

@@ -10,6 +10,7 @@ void apply(Realism realism, ForestSpec& spec) {
   spec.clumps.radius_m = 0.5;
   spec.clumps.leaf_area_m2 = 0.6;
   spec.rim_power = 1;
+  spec.height_power = 1;
   spec.branch_share = 0.1;
   spec.understorey.add = true;
 }

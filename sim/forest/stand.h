@@ -1,6 +1,7 @@
 // The steps of grow_forest: trees with their species in, prototypes and instances out.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "sim/forest/forest_spec.h"
@@ -14,8 +15,9 @@ struct StandTree {
 
 // One prototype per tree, its measured crown filled with leaves; radii point where they were measured (yaw
 // 0).
+// Adds to `notes` which species have no grammar to fill crowns with, and what grown crowns take.
 void grow_crowns(const ForestSpec& spec, const std::vector<StandTree>& stand, const RunControl& control,
-                 Forest& forest);
+                 Forest& forest, std::vector<std::string>& notes);
 
 // Prototypes by the species' grammar: shared ones for trees known by their DBH only, one for each measured
 // tree. Throws for a species without grammar. Adds to `notes` how many trees are not as tall as they should

@@ -118,7 +118,7 @@ void add_similar(const std::vector<InventoryTree>& trees, const PlotPolygon& plo
       break;
     }
   }
-  stand.notes.push_back(count_sentence(asked, stood, where));
+  if (asked > 0) stand.notes.push_back(count_sentence(asked, stood, where));
 }
 
 double default_width_m(const std::vector<InventoryTree>& trees) {
@@ -156,7 +156,7 @@ void add_mirrored(const std::vector<InventoryTree>& trees, const PlotBounds& box
         stand.trees.push_back(mirrored(tree, place, side_x != 0, side_y != 0, number++));
       }
     }
-  stand.notes.push_back(std::to_string(number) + " mirror images stand around the plot");
+  if (number > 0) stand.notes.push_back(std::to_string(number) + " mirror images stand around the plot");
 }
 
 }  // namespace

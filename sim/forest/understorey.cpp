@@ -156,7 +156,7 @@ std::vector<InventoryTree> understorey_trees(const std::vector<InventoryTree>& t
     tree.where = "understorey";
     added.push_back(std::move(tree));
   }
-  notes.push_back(said(added.size(), options.smallest_dbh_cm, *limit));
+  if (!added.empty()) notes.push_back(said(added.size(), options.smallest_dbh_cm, *limit));
   return added;
 }
 

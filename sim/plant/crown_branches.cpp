@@ -29,7 +29,7 @@ std::vector<WoodSegment> crown_branches(const CrownShape& crown, const CrownFill
   const double usual_m2 = kPi * kUsualRadiusM * length_m;  // half the side of a rod
   const auto count = static_cast<std::size_t>(std::max(1.0, std::round(wood_m2 / usual_m2)));
   const double radius_m = wood_m2 / (kPi * length_m * static_cast<double>(count));
-  const CrownSampler sampler(crown, fill.rim_power);
+  const CrownSampler sampler(crown, fill.rim_power, fill.height_power);
   std::vector<WoodSegment> rods;
   for (std::size_t i = 0; i < count; ++i) {
     RandomStream random(fill.seed, i, RandomPurpose::kCrownBranches);

@@ -30,7 +30,7 @@ bool stands_free(const CrownShape& crown, const FoliageElement& element) {
 class CentreSampler {
  public:
   CentreSampler(const CrownShape& crown, const CrownFill& fill)
-      : crown_(crown, fill.rim_power), fill_(fill) {}
+      : crown_(crown, fill.rim_power, fill.height_power), fill_(fill) {}
   Vec3 sample(std::size_t element, double share, RandomStream& random) const {
     if (fill_.clump_radius_m <= 0.0) return crown_.sample(share, random);
     const std::size_t clump = element / static_cast<std::size_t>(fill_.clump_elements);
@@ -71,6 +71,8 @@ void require_possible(const CrownFill& fill, const std::string& where) {
     throw_invalid(where + ": clumps", "are not possible", "a radius from 0 to 100 m and 1 element or more");
   if (!(fill.rim_power >= 0.0 && fill.rim_power <= 20.0))
     throw_invalid(where + ": rim power", "is out of range", "0 (even) to 20 (all at the surface)");
+  if (!(fill.height_power >= 0.0 && fill.height_power <= 20.0))
+    throw_invalid(where + ": height power", "is out of range", "0 (even) to 20 (all at the top)");
   if (!(fill.branch_share >= 0.0 && fill.branch_share <= 10.0))
     throw_invalid(where + ": branches", "are not possible", "0 to 10 m2 of branches per m2 of leaves");
 }

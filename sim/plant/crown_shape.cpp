@@ -8,6 +8,8 @@
 namespace sunfleck {
 namespace {
 
+constexpr int kMostRejections = 10000;  // never reached: at power 20 one place in about 100 stays
+
 enum { kNorth, kEast, kSouth, kWest };
 
 // Horizontal semi-axes of the quadrant a point lies in, with the signs of the quadrant.
@@ -56,13 +58,31 @@ bool inside_crown(const CrownShape& crown, const Vec3& point_m, double tolerance
   return glm::dot(scaled, scaled) <= (1.0 + tolerance) * (1.0 + tolerance);
 }
 
-CrownSampler::CrownSampler(const CrownShape& crown, double rim_power)
-    : widest_m_(crown.widest_m), rim_power_(rim_power), eighths_(crown_eighths(crown)), volume_to_here_m3_{} {
+CrownSampler::CrownSampler(const CrownShape& crown, double rim_power, double height_power)
+    : base_m_(crown.base_m),
+      length_m_(crown.height_m - crown.base_m),
+      widest_m_(crown.widest_m),
+      rim_power_(rim_power),
+      height_power_(height_power),
+      eighths_(crown_eighths(crown)),
+      volume_to_here_m3_{} {
   double sum_m3 = 0.0;
   for (std::size_t i = 0; i < eighths_.size(); ++i) volume_to_here_m3_[i] = sum_m3 += eighths_[i].volume_m3;
 }
 
+// By rejection: a place at a share t of the crown's length stays with the chance t^height_power.
 Vec3 CrownSampler::sample(double share, RandomStream& random) const {
+  Vec3 place = even_with_rim(share, random);
+  if (!(height_power_ > 0.0)) return place;
+  for (int i = 0; i < kMostRejections; ++i) {
+    const double t = std::clamp((place.z - base_m_) / length_m_, 0.0, 1.0);
+    if (random.uniform() < std::pow(t, height_power_)) break;
+    place = even_with_rim(random.uniform(), random);
+  }
+  return place;
+}
+
+Vec3 CrownSampler::even_with_rim(double share, RandomStream& random) const {
   const double volume_m3 = share * volume_to_here_m3_.back();
   const auto found = std::upper_bound(volume_to_here_m3_.begin(), volume_to_here_m3_.end() - 1, volume_m3);
   const auto& eighth = eighths_[static_cast<std::size_t>(found - volume_to_here_m3_.begin())];

@@ -25,15 +25,19 @@ std::array<CrownEighth, 8> crown_eighths(const CrownShape& crown);
 bool inside_crown(const CrownShape& crown, const Vec3& point_m, double tolerance = 0.0);
 
 // Points spread over the volume, evenly or with a density that grows as the distance from the crown's middle
-// (as a share of the way to its surface) to the power `rim_power` >= 0. `share` in [0, 1) picks the eighth by
-// volume (equal steps of share spread over the eighths exactly), the rest is random within it.
+// (as a share of the way to its surface) to the power `rim_power` >= 0, times the height above the crown's
+// base (as a share of the crown's length) to the power `height_power` >= 0. `share` in [0, 1) picks the
+// eighth by volume (equal steps of share spread over the eighths exactly, where height_power is 0), the rest
+// is random within it.
 class CrownSampler {
  public:
-  explicit CrownSampler(const CrownShape& crown, double rim_power = 0);
+  explicit CrownSampler(const CrownShape& crown, double rim_power = 0, double height_power = 0);
   Vec3 sample(double share, RandomStream& random) const;
 
  private:
-  double widest_m_, rim_power_;
+  Vec3 even_with_rim(double share, RandomStream& random) const;
+
+  double base_m_, length_m_, widest_m_, rim_power_, height_power_;
   std::array<CrownEighth, 8> eighths_;
   std::array<double, 8> volume_to_here_m3_;  // summed up to and with each eighth
 };

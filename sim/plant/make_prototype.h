@@ -54,6 +54,8 @@ struct CrownFill {
   // Leaf density grows with this power of the distance from the middle of the crown (as a share of the way to
   // its surface); 0: even.
   double rim_power = 0;
+  // And with this power of the height above the crown's base (as a share of the crown's length); 0: even.
+  double height_power = 0;
   double branch_share = 0;  // half surface of branches per leaf area, see crown_branches.h
 };
 // Fills the crown with leaves (or shoots) of the species' angle distribution; a conical stem to the top.

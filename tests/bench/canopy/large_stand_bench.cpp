@@ -10,6 +10,7 @@
 #include <string>
 
 #include "lighting/canopy/large_stand.h"
+#include "lighting/canopy/large_stand_check.h"
 #include "lighting/canopy/stand_light.h"
 #include "sim/base/parallel.h"
 #include "sim/base/random.h"
@@ -128,6 +129,10 @@ void run(double hectares, int trees, int prototypes, int leaves, double voxel_m)
   std::printf("  incident %.6g = trees %.6g + ground %.6g (residual %.2g)\n", light.incident[0],
               light.trees[0], light.ground[0],
               (light.incident[0] - light.trees[0] - light.ground[0]) / light.incident[0]);
+  const LargeStandCheck check = check_large_stand(forest, prepared, sky, light, {}, {});
+  std::printf("  checked by rays: ground %+.4f of open light, %.4f each; trees %+.2f %%, %.2f %% each\n",
+              check.ground_bias, check.ground_error, 100 * check.tree_bias, 100 * check.tree_error);
+  lap.print("check");
   if (hectares > 4) return;
   StandSceneOptions fine;
   fine.ground_cell_m = 2;

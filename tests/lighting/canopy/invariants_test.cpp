@@ -5,7 +5,10 @@
 
 #include "lighting/canopy/exp_lanes.h"
 #include "lighting/canopy/large_stand.h"
+#include "lighting/canopy/large_stand_check.h"
+#include "sim/base/error.h"
 #include "sim/base/parallel.h"
+#include "sim/forest/forest_spec.h"
 #include "tests/lighting/canopy/stand_scenes.h"
 
 namespace sunfleck::test {
@@ -195,6 +198,44 @@ TEST(StandLight, NightGivesZeros) {
   EXPECT_EQ(light.plot.bands[0].fapar[0], 0.0);
 }
 
+// Trees around the plot that nobody measured: they shade and throw light back as before, but light is
+// followed only where it can matter for the others.
+TEST(StandLight, SurroundingsAskForFewerRaysAndChangeNothing) {
+  Forest forest = small_stand(false);
+  for (int x = -5; x <= 6; ++x)
+    for (int y = -5; y <= 6; ++y) {
+      if (x >= 0 && x <= 1 && y >= 0 && y <= 1) continue;
+      Instance tree = forest.instances[0];
+      tree.position_m = {0.5 + x, 0.5 + y, 0};
+      tree.tree = {1000 + static_cast<std::uint32_t>(12 * x + y + 65)};
+      forest.instances.push_back(tree);
+    }
+  StandLightRequest r = request(20'000);
+  r.sky.sky = sky_source(SkyModel::kStandardOvercast, 3);
+  for (double& v : r.sky.sky.strength.value) v *= 90.0;
+  r.potential_rays = 1000;
+  const StandLight all = light_of(forest, r);
+  for (std::size_t t = 3; t < forest.instances.size(); ++t)
+    forest.instances[t].tree = virtual_tree(forest.instances[t].tree.value);
+  const StandLight asked = light_of(forest, r);
+  expect_closed(asked);
+  EXPECT_LT(asked.plot.sent[0], 0.6 * all.plot.sent[0]);
+  for (std::size_t t = 0; t < 3; ++t) {
+    const auto near = [&](const IntervalTable& a, const IntervalTable& b, double relative) {
+      const double error = 4.0 * std::hypot(a.error_at(0, t), b.error_at(0, t)) + relative * b.at(0, t);
+      EXPECT_NEAR(a.at(0, t), b.at(0, t), error) << t;
+    };
+    near(asked.trees.intercepted, all.trees.intercepted, 0.0);
+    // What scatters in from beyond half the forest's height: under 1 % at albedo 0.15.
+    near(asked.trees.absorbed[0], all.trees.absorbed[0], 0.01);
+    near(asked.trees.potential, all.trees.potential, 0.0);
+  }
+  EXPECT_GT(all.trees.potential.at(0, 3), 0.0f);
+  EXPECT_EQ(asked.trees.potential.at(0, 3), 0.0f);
+  EXPECT_NEAR(asked.ground.total.at(0, 5), all.ground.total.at(0, 5),
+              4.0 * std::hypot(asked.ground.total.error_at(0, 5), all.ground.total.error_at(0, 5)));
+}
+
 // A screen in the east: on the left of a picture that looks up.
 TEST(Photograph, EastIsOnTheLeft) {
   const Forest forest = forest_of({quad({3, 0, 2}, {0, 50, 0}, {0, 0, 2})});
@@ -236,6 +277,28 @@ TEST(LargeStandLight, ClosesEnergyAndAgreesWithRays) {
                 0.05 * rays.trees.potential.at(0, t));
   }
   EXPECT_NEAR(boxes, traced, 0.05 * traced);
+  // The same comparison by its own rays: 1,000 from each of 60 directions tell a tree to 1 %.
+  LargeStandLight told = world;
+  const LargeStandCheck check = check_large_stand(forest, prepared, r.sky, world, {1000, 1000, 1000}, {});
+  ASSERT_EQ(check.trees, 3u);
+  ASSERT_EQ(check.cells, prepared.map.count());
+  double bias = 0.0, squares = 0.0;
+  for (std::size_t t = 0; t < 3; ++t) {
+    const double off = 1.0 - rays.trees.intercepted.at(0, t) / world.tree_intercepted.at(0, t);
+    bias += off / 3;
+    squares += off * off / 3;
+  }
+  EXPECT_NEAR(check.tree_bias, bias, 0.02);
+  EXPECT_NEAR(check.tree_error, std::sqrt(squares), 0.03);
+  double ground = 0.0;
+  for (std::size_t c = 0; c < check.cells; ++c)
+    ground += world.ground_total.at(0, c) / static_cast<double>(check.cells);
+  // Both know the mean light on the ground: what boxes say less the rays' share of the plot.
+  EXPECT_NEAR(check.ground_bias, ground - rays.plot.ground[0] / rays.plot.sent[0], 0.01);
+  set_errors(check, r.sky, told);
+  EXPECT_NEAR(told.tree_intercepted.error_at(0, 1), check.tree_error * told.tree_intercepted.at(0, 1), 1e-6);
+  EXPECT_NEAR(told.ground_total.error_at(0, 1), check.ground_error, 1e-6);  // open light is 1
+  EXPECT_THROW(check_large_stand(forest, prepared, r.sky, world, {1, 1, 0}, {}), Error);
 }
 
 // In the open, trees take what they would take alone where they do not shade each other. Crowns four boxes
