@@ -186,7 +186,7 @@ std::string making(const Page& page) {
   if (p.skipped.empty()) out += paragraph("Nothing was skipped.");
   for (const SkipNote& s : p.skipped)
     out += paragraph("Skipped: " + escaped(s.what) + ", " + escaped(s.reason) +
-                     " (changes no value by more than " + figure(s.relative_bound) + " of the mean)");
+                     " (bound: " + figure(s.relative_bound) + " of the mean)");
   std::vector<std::pair<std::string, std::string>> rows = {{"Program", "sunfleck " + escaped(p.version)},
                                                            {"Method", escaped(p.method)},
                                                            {"Forest (SHA-256)", escaped(p.forest_hash)},

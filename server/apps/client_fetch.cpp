@@ -15,13 +15,6 @@
 namespace sunfleck {
 namespace {
 
-LightRequest required_light(const ClientOptions& o, const SceneFile& scene) {
-  if (!scene.light) throw_invalid(o.scene.string(), "has no [light] table", "say which sun, sky and bands");
-  LightRequest request = *scene.light;
-  if (!o.method.empty()) request.method = method_from_string(o.method, "--method");
-  return request;
-}
-
 // The forest a served scene was made of, grown here: tables need the places of its leaves. `notes`: what
 // growing has to say.
 Forest same_forest(const ClientOptions& o, const SceneFile& scene, const RunControl& control,
@@ -77,7 +70,7 @@ void fetch_light(const ClientOptions& o, Client& client, const RunControl& contr
   check_outputs("client light",
                 {{"-o", o.output, ".nc"}, {"--csv", o.csv, ".csv"}, {"--tree-csv", o.tree_csv, ".csv"}});
   const SceneFile scene = required_scene_file(o);
-  const LightRequest request = required_light(o, scene);
+  const LightRequest request = light_request_of(o.scene, scene, o.method, o.trees);
   required_scene_name(o);
   const Forest whole = same_forest(o, scene, control);
   const LightMap map = client.light_map(o.scene_name, request, control);
@@ -128,7 +121,7 @@ void fetch_picture(const ClientOptions& o, Client& client, const RunControl& con
   const auto files = o.exr.empty()   ? Client::Files::kPng
                      : o.png.empty() ? Client::Files::kExr
                                      : Client::Files::kExrAndPng;
-  LightRequest light = required_light(o, scene);
+  LightRequest light = light_request_of(o.scene, scene, o.method, {});
   light.selection = {};  // a picture shows all trees
   const RemoteRender picture = client.render(required_scene_name(o), light, camera, files, control);
   if (!o.png.empty()) write_whole_file(o.png, picture.png);

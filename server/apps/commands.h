@@ -23,7 +23,8 @@ void run_grow(const GrowOptions& options, const RunControl& control);
 
 struct LightOptions {
   std::filesystem::path forest, scene, netcdf, element_csv, tree_csv;
-  std::string method;  // empty: as the scene file says
+  std::string method;                // empty: as the scene file says
+  std::vector<std::uint32_t> trees;  // the same
   int threads = 0;
 };
 void run_light(const LightOptions& options, const RunControl& control);
@@ -101,8 +102,9 @@ struct ClientOptions {
   std::string action;  // info, create, list, delete, light, stand, render
   std::string address, scene_name;
   std::filesystem::path scene, output, csv, tree_csv, json, png, exr, configs;
-  StandFiles stand;  // but netcdf and csv, which are `output` and `csv` here
-  std::string method;
+  StandFiles stand;                  // but netcdf and csv, which are `output` and `csv` here
+  std::string method;                // empty: as the scene file says
+  std::vector<std::uint32_t> trees;  // the same
 };
 void run_client(const ClientOptions& options, const RunControl& control);
 

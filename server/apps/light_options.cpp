@@ -34,6 +34,9 @@ void add_light(CLI::App& app, LightOptions& o) {
   c->add_option("forest", o.forest, "Forest (.vdb)")->required();
   c->add_option("--scene", o.scene, "Scene file (TOML) with a [light] table")->required();
   c->add_option("--method", o.method, "Instead of the scene file's: " + known_methods());
+  c->add_option("--trees", o.trees,
+                "Numbers of the trees to answer for, instead of the scene file's; all shade")
+      ->delimiter(',');
   c->add_option("-o,--output", o.netcdf, "Light map to write (.nc)");
   c->add_option("--csv", o.element_csv, "Table of all elements to write (.csv)");
   c->add_option("--tree-csv", o.tree_csv, "Table of all trees to write (.csv)");

@@ -16,9 +16,7 @@ void run_light(const LightOptions& o, const RunControl& control) {
       "light",
       {{"-o", o.netcdf, ".nc"}, {"--csv", o.element_csv, ".csv"}, {"--tree-csv", o.tree_csv, ".csv"}});
   const SceneFile scene = read_scene_file(o.scene);
-  if (!scene.light) throw_invalid(o.scene.string(), "has no [light] table", "say which sun, sky and bands");
-  LightRequest request = *scene.light;
-  if (!o.method.empty()) request.method = method_from_string(o.method, "--method");
+  const LightRequest request = light_request_of(o.scene, scene, o.method, o.trees);
   const Forest whole = load_forest(o.forest);
   const LightMap map = compute_light_map(whole, request, {.threads = o.threads}, control);
   // What the answer's elements are numbered by: the trees asked for.

@@ -21,6 +21,17 @@ SceneFile read_scene_file(const fs::path& path) {
   return scene;
 }
 
+LightRequest light_request_of(const fs::path& path, const SceneFile& scene, const std::string& method,
+                              const std::vector<std::uint32_t>& trees) {
+  if (!scene.light) throw_invalid(path.string(), "has no [light] table", "say which sun, sky and bands");
+  LightRequest request = *scene.light;
+  if (!method.empty()) request.method = method_from_string(method, "--method");
+  if (trees.empty()) return request;
+  request.selection.trees.clear();
+  for (const std::uint32_t id : trees) request.selection.trees.push_back(TreeId{id});
+  return request;
+}
+
 fs::path find_configs(const fs::path& given) {
   const auto has_species = [](const fs::path& folder) { return fs::is_directory(folder / "species"); };
   if (!given.empty()) {

@@ -21,6 +21,11 @@ struct SceneFile {
 // Reads all tables that are there and refuses every key that nobody knows.
 SceneFile read_scene_file(const std::filesystem::path& path);
 
+// The [light] table of the scene, with that method and those trees where they are given. Throws
+// Error(kInvalidInput) where there is none.
+LightRequest light_request_of(const std::filesystem::path& path, const SceneFile& scene,
+                              const std::string& method, const std::vector<std::uint32_t>& trees);
+
 // The folder with species and grammars: `given` if not empty, else $SUNFLECK_CONFIGS, else "configs" under
 // the current folder or under a folder above the program. Throws Error(kNotFound).
 std::filesystem::path find_configs(const std::filesystem::path& given);

@@ -34,6 +34,9 @@ void add_service(CLI::App& app, ServeOptions& serve, ClientOptions& client) {
   c->add_option("--scene-file", client.scene, "Scene file (TOML)");
   c->add_option("--scene", client.scene_name, "Name the server gave a scene: scenes/...");
   c->add_option("--method", client.method, "Instead of the scene file's: " + known_methods());
+  c->add_option("--trees", client.trees,
+                "light: numbers of the trees to answer for, instead of the scene file's")
+      ->delimiter(',');
   add_client_files(c, client);
   c->add_option("--configs", client.configs, "Folder with species/ and grammars/");
   c->footer(

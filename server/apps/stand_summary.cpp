@@ -129,8 +129,8 @@ void print_sensors(const StandTables& t) {
 
 void print_making(const Provenance& p) {
   for (const SkipNote& s : p.skipped)
-    std::printf("skipped      %s: %s (changes no value by more than %.2g of the mean)\n", s.what.c_str(),
-                s.reason.c_str(), s.relative_bound);
+    std::printf("skipped      %s: %s (bound: %.2g of the mean)\n", s.what.c_str(), s.reason.c_str(),
+                s.relative_bound);
   for (const std::string& note : p.notes) std::printf("note         %s\n", note.c_str());
   double wall = 0;
   for (const StageTime& time : p.times) wall += time.wall_s;

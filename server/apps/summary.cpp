@@ -42,8 +42,10 @@ void print_band(const BandLightMap& band) {
   std::printf("%-12s mean absorbed %.4g W per m2 of leaf (%.6g W in all)\n", (band.band + ":").c_str(),
               area_m2 > 0 ? absorbed_w / area_m2 : 0.0, absorbed_w);
   std::printf("             mean irradiance, both faces, %.5g W m-2", band.mean_irradiance_w_m2);
-  if (has_error)
+  if (has_error && band.mean_irradiance_standard_error_w_m2 > 0)
     std::printf(" +- %.2g (standard error)\n", band.mean_irradiance_standard_error_w_m2);
+  else if (has_error)  // of a selection: errors of single elements only
+    std::printf("\n");
   else
     std::printf("; no error estimate of its own\n");
   if (has_error) {
@@ -91,8 +93,8 @@ void print_light(const LightMap& map, const Forest& forest) {
       std::printf("%-12s %s = %s\n", name.starts_with("measured_") ? "error" : "auto", name.c_str(),
                   value.c_str());
   for (const SkipNote& s : map.provenance.skipped)
-    std::printf("skipped      %s: %s (changes no value by more than %.2g of the mean)\n", s.what.c_str(),
-                s.reason.c_str(), s.relative_bound);
+    std::printf("skipped      %s: %s (bound: %.2g of the mean)\n", s.what.c_str(), s.reason.c_str(),
+                s.relative_bound);
   for (const std::string& note : map.provenance.notes) std::printf("note         %s\n", note.c_str());
   std::printf("time         %s", seconds_text(total_wall_s(map.provenance)).c_str());
   const char* separator = " (";

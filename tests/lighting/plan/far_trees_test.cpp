@@ -48,6 +48,7 @@ Forest without(const Forest& forest, const FarTrees& trees) {
 // independent runs.
 struct Change {
   double mean = 0, square = 0;
+  double mean_error = 0, square_error = 0;  // standard errors over the elements
 };
 Change measured_change(const Forest& forest, const FarTrees& trees, std::uint32_t selected,
                        const LightRequest& request) {
@@ -76,10 +77,16 @@ Change measured_change(const Forest& forest, const FarTrees& trees, std::uint32_
     }
   }
   Change found;
+  const double n = static_cast<double>(change[0].size());
+  double squares = 0, fourths = 0;
   for (std::size_t k = 0; k < change[0].size(); ++k) {
-    found.mean += 0.5 * (change[0][k] + change[1][k]) / (change[0].size() * mean_light);
-    found.square += change[0][k] * change[1][k] / (change[0].size() * mean_light * mean_light);
+    const double mean = 0.5 * (change[0][k] + change[1][k]) / mean_light,
+                 square = change[0][k] * change[1][k] / (mean_light * mean_light);
+    found.mean += mean / n, squares += mean * mean;
+    found.square += square / n, fourths += square * square;
   }
+  found.mean_error = std::sqrt(std::max(0.0, squares / n - found.mean * found.mean) / n);
+  found.square_error = std::sqrt(std::max(0.0, fourths / n - found.square * found.square) / n);
   return found;
 }
 
@@ -123,9 +130,12 @@ TEST_P(FarTreesBound, HoldsForTracedLight) {
     return;
   }
   const Change change = measured_change(forest, trees, selected, request);
-  std::printf(", measured mean %+.5f, mean square %+.2e\n", change.mean, change.square);
-  EXPECT_LE(std::abs(change.mean), trees.bound);
-  EXPECT_LE(change.square, trees.bound * trees.bound);
+  std::printf(", measured mean %+.5f +- %.5f, mean square %+.2e +- %.2e\n", change.mean, change.mean_error,
+              change.square, change.square_error);
+  // Fixed seeds; a bound that holds 99 times in 100 and a measurement 3 of its own standard errors off: a
+  // false alarm in all cases together about once in 10 other seeds.
+  EXPECT_LE(std::abs(change.mean), trees.bound + 3 * change.mean_error);
+  EXPECT_LE(change.square, trees.bound * trees.bound + 3 * change.square_error);
 }
 
 INSTANTIATE_TEST_SUITE_P(Sweep, FarTreesBound,

@@ -142,6 +142,46 @@ TEST_P(ClientStand, WritesTheSameFilesAsTheCommandAtHome) {
 INSTANTIATE_TEST_SUITE_P(All, ClientStand, ::testing::Values("periodic", "natural"),
                          [](const auto& test) { return std::string(test.param); });
 
+// A selection of trees, served and at home: the same tables, of those trees alone.
+TEST(ClientLight, TakesASelectionOfTrees) {
+  write_tables();
+  const std::string light = R"(
+[light]
+method = "grid"
+[light.sun]
+zenith_deg = 30
+azimuth_deg = 160
+[[light.bands]]
+name = "PAR"
+beam_normal_w_m2 = 400
+diffuse_horizontal_w_m2 = 80
+)";
+  std::string text = scene_with("periodic");
+  text = text.substr(0, text.find("[stand_light]")) + light;
+  const std::string scene = write_file("some.toml", text).string();
+  ASSERT_EQ(run("grow " + scene + " -o " + out("some.vdb")).code, 0);
+  const Ran local = run("light " + out("some.vdb") + " --scene " + scene + " --trees 4,2 --csv " +
+                        out("local.csv") + " --tree-csv " + out("local_trees.csv"));
+  ASSERT_EQ(local.code, 0) << local.text;
+  const test::ServedProcess server;
+  const std::string client = " --address " + server.target() + " --scene-file " + scene;
+  const Ran created = run("client create" + client);
+  const std::size_t at = created.text.find("scenes/");
+  ASSERT_NE(at, std::string::npos) << created.text;
+  const std::string name = created.text.substr(at, created.text.find(' ', at) - at);
+  const std::string ask = "client light" + client + " --scene " + name + " --csv " + out("served.csv") +
+                          " --tree-csv " + out("served_trees.csv") + " --trees ";
+  const Ran served = run(ask + "4,2");
+  ASSERT_EQ(served.code, 0) << served.text;
+  EXPECT_TRUE(content(out("served.csv")) == content(out("local.csv")));
+  EXPECT_EQ(content(out("served_trees.csv")), content(out("local_trees.csv")));
+  const std::string trees = content(out("local_trees.csv"));
+  EXPECT_EQ(std::count(trees.begin(), trees.end(), '\n'), 3);  // a header and two trees
+  const Ran refused = run(ask + "77");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.text.find("light.id_trees[0]"), std::string::npos) << refused.text;
+}
+
 TEST(ClientStandMistakes, AreToldBeforeTheServerIsAsked) {
   write_tables();
   const std::string scene = write_file("m.toml", scene_with("periodic")).string();
