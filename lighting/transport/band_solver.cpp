@@ -91,7 +91,7 @@ class BandSolver {
   }
 
   void next_order() {
-    sweep_all(ground_.last, solution_.iterations == 0 ? ground_.open : 0.0, around_);
+    sweep_all(ground_.last, solution_.iterations == 0 ? ground_.open : 0.0, around_, problem_.scattered_from);
     add_around(1.0);
     const std::vector<double> nothing(scene_.set.count(), 0.0);
     ground_.last = ground_irradiance(scene_, *problem_.sectors, solution_.scattered, nothing, control_);
@@ -109,7 +109,7 @@ class BandSolver {
     leaves_.total_source(orders_, tail, solution_.scattered, control_);
     add_around(tail);
     around_total_.resize(scene_.set.count());
-    sweep_all(ground_.total, ground_.open, around_total_);
+    sweep_all(ground_.total, ground_.open, around_total_, CellValue::kMiddle);
     solution_.part_radiosity = leaves_.total_radiosity(orders_, tail, control_);
     solution_.ground_irradiance = std::move(ground_.total);
     solution_.wood_radiance = std::move(orders_.wood_total);
@@ -128,7 +128,7 @@ class BandSolver {
   }
 
   void sweep_all(const std::vector<float>& irradiance, double open_irradiance,
-                 std::vector<std::vector<float>>& around) {
+                 std::vector<std::vector<float>>& around, CellValue value) {
     const double radiance_per_irradiance = problem_.soil_albedo / kPi;
     std::vector<float> ground(irradiance);
     for (float& radiance : ground) radiance *= static_cast<float>(radiance_per_irradiance);
@@ -136,7 +136,7 @@ class BandSolver {
     for_each_chunk(scene_.set.count(), 1, control_, {}, [&](std::size_t d, std::size_t) {
       sweep(scene_.plans[d], scene_.transmittance_of(d),
             GroundInflow(scene_, *problem_.sectors, d, ground, open), scene_.part_of(solution_.scattered, d),
-            around[d], control_);
+            around[d], control_, value);
     });
   }
 

@@ -88,12 +88,14 @@ class GridEstimate {
     std::vector<LeafBand> leaf = leaf_bands(forest_, optics_, b);
     const LeafScattering leaves(scene_.contents, scene_.lanes, scene_.set.half(), face_m2, leaf,
                                 mean_bark_reflectance(forest_, optics_, b));
-    const BandProblem problem{.beam_w_m2 = sun_ != nullptr ? light_.bands[b].beam_normal_w_m2 : 0.0,
-                              .diffuse_w_m2 = light_.bands[b].diffuse_horizontal_w_m2,
-                              .soil_albedo = optics_.soil_albedo(b),
-                              .sectors = &sky_.sectors,
-                              .sky = &sky_.radiance,
-                              .sun = sun_};
+    const BandProblem problem{
+        .beam_w_m2 = sun_ != nullptr ? light_.bands[b].beam_normal_w_m2 : 0.0,
+        .diffuse_w_m2 = light_.bands[b].diffuse_horizontal_w_m2,
+        .soil_albedo = optics_.soil_albedo(b),
+        .sectors = &sky_.sectors,
+        .sky = &sky_.radiance,
+        .sun = sun_,
+        .scattered_from = scene_.periodic || sun_is_given_ ? CellValue::kMean : CellValue::kMiddle};
     BandSolution solution;
     {
       const StageTimer timer(map_.provenance, "sweeps");

@@ -67,8 +67,10 @@ std::shared_ptr<const GridSky> sky_of(const Forest& forest, const Illumination& 
               .radiance = {},
               .on_elements = {}};
   if (needed) {
-    sky.radiance = sky_radiance(scene, sky.sectors, control);
+    sky.radiance = sky_radiance(scene, sky.sectors, CellValue::kMiddle, control);
     sky.on_elements = gather(scene, sky.radiance, {}, control);
+    // For the leaves' first scattering; a period's budget shows.
+    if (scene.periodic) sky.radiance = sky_radiance(scene, sky.sectors, CellValue::kMean, control);
   } else {
     sky.radiance.assign(scene.set.count() * scene.cells(), 0.0f);
     sky.on_elements.resize(scene.field->elements().size());

@@ -39,9 +39,10 @@ class Plane {
 
 class Sweeper {
  public:
-  Sweeper(const SweepPlan& plan, const Inflow& inflow)
+  Sweeper(const SweepPlan& plan, const Inflow& inflow, CellValue value)
       : plan_(plan),
         inflow_(inflow),
+        mean_(value == CellValue::kMean),
         rows_(plan.cells[static_cast<std::size_t>(plan.row)]),
         columns_(plan.cells[static_cast<std::size_t>(plan.column)]),
         slabs_(plan.cells[static_cast<std::size_t>(plan.axis)]),
@@ -113,7 +114,8 @@ class Sweeper {
       const std::ptrdiff_t first = slab * plan_.stride[static_cast<std::size_t>(plan_.axis)] +
                                    c * plan_.stride[static_cast<std::size_t>(plan_.column)];
       const float* in = before_.at(plan_.row_shift, c + plan_.column_shift);
-      const Row cells{.count = rows_,
+      const Row cells{.mean = mean_,
+                      .count = rows_,
                       .in = in,
                       .in_across = in + before_.pitch(),
                       .weights = weights_,
@@ -129,6 +131,7 @@ class Sweeper {
 
   const SweepPlan& plan_;
   const Inflow& inflow_;
+  const bool mean_;
   int rows_, columns_, slabs_;
   Plane before_, after_;
   RowWeights weights_;
@@ -160,9 +163,10 @@ SweepPlan plan_sweep(const GridLayout& layout, const Vec3& towards) {
 }
 
 void sweep(const SweepPlan& plan, std::span<const float> half_step_transmittance, const Inflow& inflow,
-           std::span<float> radiance, std::vector<float>& around, const RunControl& control) {
+           std::span<float> radiance, std::vector<float>& around, const RunControl& control,
+           CellValue value) {
   SUNFLECK_EXPECTS(radiance.size() == half_step_transmittance.size());
-  Sweeper(plan, inflow).run(half_step_transmittance, radiance, around, control);
+  Sweeper(plan, inflow, value).run(half_step_transmittance, radiance, around, control);
 }
 
 }  // namespace sunfleck::transport

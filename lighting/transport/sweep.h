@@ -43,9 +43,14 @@ class NoInflow final : public Inflow {
   float radiance(const std::array<int, 3>&) const override { return 0.0f; }
 };
 
+// What a cell's radiance is on return: that in its middle, for looking up between cells, or the mean along
+// the ray, by which what the cell's leaves take is what the ray loses there.
+enum class CellValue { kMiddle, kMean };
+
 // `radiance`: the source function on entry, the radiance on return. `half_step_transmittance`: t. `around`:
 // where the axis wraps, what leaves the last slab; on entry what enters the first, else empty.
 void sweep(const SweepPlan& plan, std::span<const float> half_step_transmittance, const Inflow& inflow,
-           std::span<float> radiance, std::vector<float>& around, const RunControl& control);
+           std::span<float> radiance, std::vector<float>& around, const RunControl& control,
+           CellValue value = CellValue::kMiddle);
 
 }  // namespace sunfleck::transport

@@ -5,7 +5,13 @@ namespace sunfleck::transport {
 
 namespace {
 
-[[gnu::always_inline]] inline void sweep_cells(const Row& row) {
+// Of an exponential between its two ends, by Simpson's rule: 3e-5 of its range off at depth 1.
+[[gnu::always_inline]] inline float mean_of(float arriving, float middle, float leaving) {
+  return middle + (1.0f / 6.0f) * ((arriving - middle) + (leaving - middle));
+}
+
+template <bool kMean>
+[[gnu::always_inline]] inline void sweep_cells_of(const Row& row) {
   const RowWeights w = row.weights;
   const int count = row.count;
   const float* __restrict in = row.in;
@@ -18,9 +24,17 @@ namespace {
         w.near * in[i] + w.next * in[i + 1] + w.across * across[i] + w.both * across[i + 1];
     const float source = cell[i];
     const float radiance = source + (arriving - source) * pass[i];
-    cell[i] = radiance;
-    out[i] = source + (radiance - source) * pass[i];
+    const float leaving = source + (radiance - source) * pass[i];
+    cell[i] = kMean ? mean_of(arriving, radiance, leaving) : radiance;
+    out[i] = leaving;
   }
+}
+
+[[gnu::always_inline]] inline void sweep_cells(const Row& row) {
+  if (row.mean)
+    sweep_cells_of<true>(row);
+  else
+    sweep_cells_of<false>(row);
 }
 
 [[gnu::target("avx512f,avx512vl,avx512bw,avx512dq,prefer-vector-width=512")]] void sweep_row_avx512(
@@ -45,8 +59,9 @@ void sweep_row_apart(const Row& row, std::ptrdiff_t stride) {
                            w.both * row.in_across[i + 1];
     const float source = row.cell[i * stride], pass = row.pass[i * stride];
     const float radiance = source + (arriving - source) * pass;
-    row.cell[i * stride] = radiance;
-    row.out[i] = source + (radiance - source) * pass;
+    const float leaving = source + (radiance - source) * pass;
+    row.cell[i * stride] = row.mean ? mean_of(arriving, radiance, leaving) : radiance;
+    row.out[i] = leaving;
   }
 }
 

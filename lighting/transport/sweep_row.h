@@ -13,6 +13,7 @@ struct RowWeights {
 };
 
 struct Row {
+  bool mean = false;  // cells get the mean along the ray, else the value in the middle
   int count;
   const float *in, *in_across;  // what left the slab before, count + 1 values each
   RowWeights weights;

@@ -50,13 +50,14 @@ void plan_sweeps(SweepSpace& space) {
 }
 
 std::vector<float> sweep_even(const SweepPlan& plan, std::span<const float> half_step_transmittance,
-                              const Inflow& inflow, std::span<float> radiance, const RunControl& control) {
+                              const Inflow& inflow, std::span<float> radiance, const RunControl& control,
+                              CellValue value) {
   const bool around = plan.wraps[static_cast<std::size_t>(plan.axis)];
   std::vector<float> leaving, before;
   for (int round = 0; round < (around ? kMostWraps : 1); ++round) {
     before = leaving;
     std::ranges::fill(radiance, 0.0f);
-    sweep(plan, half_step_transmittance, inflow, radiance, leaving, control);
+    sweep(plan, half_step_transmittance, inflow, radiance, leaving, control, value);
     if (largest_change(leaving, before) <= kSettled) break;
   }
   return leaving;

@@ -49,7 +49,8 @@ class EvenInflow final : public Inflow {
 // Radiance from outside that reaches each cell without meeting anything, along one direction. Returns what
 // goes around where the axis repeats, see sweep().
 std::vector<float> sweep_even(const SweepPlan& plan, std::span<const float> half_step_transmittance,
-                              const Inflow& inflow, std::span<float> radiance, const RunControl& control);
+                              const Inflow& inflow, std::span<float> radiance, const RunControl& control,
+                              CellValue value = CellValue::kMiddle);
 
 // Irradiance of every ground cell by `radiance` [direction][cell]; where the way to the outside misses the
 // grid, `outside` per direction.

@@ -20,13 +20,13 @@ TransportScene transport_scene(const Forest& forest, const ForestIndex& index, D
   return scene;
 }
 
-std::vector<float> sky_radiance(const TransportScene& scene, const SkySectors& sectors,
+std::vector<float> sky_radiance(const TransportScene& scene, const SkySectors& sectors, CellValue value,
                                 const RunControl& control) {
   std::vector<float> radiance(scene.set.count() * scene.cells());
   for_each_chunk(scene.set.count(), 1, control, {}, [&](std::size_t d, std::size_t) {
     if (sectors.sky_radiance[d] > 0.0)
       sweep_even(scene.plans[d], scene.transmittance_of(d), EvenInflow(sectors.sky_radiance[d]),
-                 scene.part_of(radiance, d), control);
+                 scene.part_of(radiance, d), control, value);
   });
   return radiance;
 }

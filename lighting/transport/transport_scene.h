@@ -27,7 +27,7 @@ TransportScene transport_scene(const Forest& forest, const ForestIndex& index, D
 
 // Radiance of the sky that reaches each cell without meeting anything, for a diffuse irradiance of 1;
 // [direction][cell].
-std::vector<float> sky_radiance(const TransportScene& scene, const SkySectors& sectors,
+std::vector<float> sky_radiance(const TransportScene& scene, const SkySectors& sectors, CellValue value,
                                 const RunControl& control);
 
 }  // namespace sunfleck::transport

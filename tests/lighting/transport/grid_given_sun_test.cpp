@@ -89,14 +89,36 @@ TEST(GivenSun, ClosesTheBudgetOfAPeriodWithWood) {
   EXPECT_NEAR(budget.residual_w / budget.incident_w, 0.0, 1e-3);
 }
 
-// What the grid marched itself, given back to it, is the same answer but for rounding; only a period shares
-// out what is left of the sun.
+// What the grid marched itself, given back to it: the same direct light. Scattered light differs by what
+// leaves scatter from (band_solver.h): up to 3 % where clumps are sunlit, less in a ball.
 TEST(GivenSun, IsTheAnswerOfTheMarchGivenItsShares) {
   const StandCase c = stand_case(generated_crown({.leaves = 5000, .crown_lai = 4}), 0.2);
   const LightMap own = marched(c), given = with_given(c, own.sunlit_fraction);
   for (std::size_t b = 0; b < own.bands.size(); ++b)
-    for (std::size_t e = 0; e < own.bands[b].elements.size(); ++e)
-      ASSERT_NEAR(all_light(given.bands[b].elements[e]) / all_light(own.bands[b].elements[e]), 1.0, 1e-5);
+    for (std::size_t e = 0; e < own.bands[b].elements.size(); ++e) {
+      const ElementLight &x = given.bands[b].elements[e], &y = own.bands[b].elements[e];
+      ASSERT_NEAR(x.front.direct_w_m2, y.front.direct_w_m2, 1e-5f * y.front.direct_w_m2);
+      ASSERT_NEAR(x.back.direct_w_m2, y.back.direct_w_m2, 1e-5f * y.back.direct_w_m2);
+      ASSERT_NEAR(all_light(x) / all_light(y), 1.0, 0.03);
+    }
+}
+
+// Sun that comes into a period is taken by leaves and ground, whether drawn or marched: black ones take all
+// of it, but for floats. What scattering and the gather of it do not agree on stays below 0.5 % (directions
+// count single leaves to some percent, evenly over all).
+TEST(GivenSun, AllLightOfAPeriodIsAccountedFor) {
+  for (const CrownKind kind : {CrownKind::kSphere, CrownKind::kClumped}) {
+    const Forest forest = stand({.side = 2, .leaves = 3000, .periodic = true, .kinds = {kind}});
+    for (const double leaf : {0.0, 0.45}) {
+      const StandCase c = one_band(forest, {leaf, leaf, leaf, leaf}, leaf > 0 ? 0.2 : 0.0, 1000, 0);
+      for (const LightMap& map : {marched(c), with_given(c, drawn(c, 0.02))}) {
+        const EnergyBudget& budget = map.bands[0].budget;
+        std::cout << "period, leaf " << leaf << ": residual " << budget.residual_w / budget.incident_w
+                  << '\n';
+        EXPECT_NEAR(budget.residual_w / budget.incident_w, 0.0, leaf > 0 ? 0.005 : 1e-5);
+      }
+    }
+  }
 }
 
 // Against traced light: scattered sunlight of clumps is no worse per leaf than with marched sun, its mean

@@ -93,7 +93,7 @@ GridOptions tight(int directions) {
   return {.directions = directions, .cell_m = 0, .convergence = 1e-6, .max_iterations = 2000};
 }
 // Floats, summed over some hundred orders.
-constexpr double kRounding = 2e-4;
+constexpr double kRounding = 3e-4;
 
 TEST(Furnace, RandomCrownOverWhiteGround) {
   const Forest forest =
