@@ -115,12 +115,16 @@ struct Difference {
 Difference difference(const std::vector<double>& off, const std::vector<double>& variance) {
   Difference d;
   const double n = static_cast<double>(off.size());
-  double squares = 0.0;
+  double mean = 0.0, squares = 0.0;
   for (std::size_t i = 0; i < off.size(); ++i) {
+    const double square = off[i] * off[i] - variance[i];
     d.bias += off[i] / n;
-    squares += (off[i] * off[i] - variance[i]) / n;
+    mean += square / n;
+    squares += square * square / n;
   }
-  d.error = std::sqrt(std::max(0.0, squares));
+  if (off.size() < 2) return d;
+  const double own_error = std::sqrt(std::max(0.0, squares - mean * mean) / (n - 1.0));
+  d.error = std::sqrt(std::max(mean, own_error));
   return d;
 }
 

@@ -13,13 +13,14 @@ namespace sunfleck {
 
 struct LargeStandCheckOptions {
   int cells = 64, trees = 64;  // 0 .. 10,000; as many as there are where there are fewer
-  int rays = 4;                // per direction, 1 .. 1000
+  int rays = 8;                // per direction, 1 .. 1000
 };
 
 struct LargeStandCheck {
   std::size_t cells = 0, trees = 0;
   // Boxes less rays: of the light on ground cells as a share of open light, and of what trees intercept
-  // relative to what the boxes say (trees weighted alike). Errors: root mean squares without the rays' noise.
+  // relative to what the boxes say (trees weighted alike). Errors: root mean squares without the rays' noise,
+  // or the least that these rays can tell, where that is more.
   double ground_bias = 0, ground_error = 0, tree_bias = 0, tree_error = 0;
 };
 
