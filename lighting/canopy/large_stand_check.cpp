@@ -16,6 +16,7 @@ namespace sunfleck {
 namespace {
 
 constexpr std::uint64_t kCells = 1, kTrees = 2, kDraw = 3;
+constexpr int kRaysPerTree = 4;  // times the rays of a cell: a tree fills a tenth of its disc
 constexpr double kOverGroundM = 1e-3, kSlackM = 1e-3;
 
 void check_options(const LargeStandCheckOptions& o) {
@@ -108,20 +109,38 @@ class TreeRays {
   Vec3 centre_m_{0};
 };
 
+struct Sample {
+  double boxes = 0;
+  Estimate rays;
+};
 struct Difference {
   double bias = 0, error = 0;
 };
-// Of relative values; their variances are the rays'.
-Difference difference(const std::vector<double>& off, const std::vector<double>& variance) {
+// Mean of boxes - rays, and its root mean square without the rays' noise, or the standard error of that mean
+// square where it is more.
+Difference difference(const std::vector<Sample>& samples) {
   Difference d;
-  const double n = static_cast<double>(off.size());
-  double squares = 0.0;
-  for (std::size_t i = 0; i < off.size(); ++i) {
-    d.bias += off[i] / n;
-    squares += (off[i] * off[i] - variance[i]) / n;
+  const double n = static_cast<double>(samples.size());
+  double mean = 0.0, squares = 0.0;
+  for (const Sample& s : samples) {
+    const double off = s.boxes - s.rays.value, square = off * off - s.rays.variance;
+    d.bias += off / n;
+    mean += square / n;
+    squares += square * square / n;
   }
-  d.error = std::sqrt(std::max(0.0, squares));
+  if (samples.size() < 2) return d;
+  const double own_error = std::sqrt(std::max(0.0, squares - mean * mean) / (n - 1.0));
+  d.error = std::sqrt(std::max(mean, own_error));
   return d;
+}
+
+// Relative to the sample's light: its mean for the bias, its root mean square for the error.
+Difference relative(Difference d, const std::vector<Sample>& samples) {
+  double sum = 0.0, squares = 0.0;
+  const double n = static_cast<double>(samples.size());
+  for (const Sample& s : samples) sum += s.boxes / n, squares += s.boxes * s.boxes / n;
+  if (!(sum > 0.0)) return {};
+  return {d.bias / sum, d.error / std::sqrt(squares)};
 }
 
 double sum_over_intervals(const IntervalTable& table, std::size_t target) {
@@ -154,32 +173,26 @@ LargeStandCheck check_large_stand(const Forest& forest, const LargeStandPrepared
   const double top_m = forest_bounds(forest).hi.z + (canopy.periodic ? fall_m : 0.0);
   double open = 0.0;
   for (const double o : open_light(sky, prepared.map)) open += o;
-  std::vector<double> cell_off(cells.size()), cell_noise(cells.size()), tree_off(trees.size()),
-      tree_noise(trees.size());
+  std::vector<Sample> ground(cells.size()), tree(trees.size());
   for_each_chunk(
       cells.size() + trees.size(), 1, control, "rays beside boxes", [&](std::size_t i, std::size_t) {
         if (i < cells.size()) {
           RandomStream random(mix_seed(seed, kCells), i, RandomPurpose::kStandRays);
-          const Estimate rays =
-              cell_light(scene, forest, prepared.map, cells[i], sky, options.rays, random, control);
-          if (!(open > 0.0)) return;
-          cell_off[i] = (sum_over_intervals(light.ground_total, cells[i]) - rays.value) / open;
-          cell_noise[i] = rays.variance / (open * open);
+          ground[i] = {sum_over_intervals(light.ground_total, cells[i]),
+                       cell_light(scene, forest, prepared.map, cells[i], sky, options.rays, random, control)};
           return;
         }
         const std::size_t k = i - cells.size();
         RandomStream random(mix_seed(seed, kTrees), k, RandomPurpose::kStandRays);
         const TreeRays sees(scene, forest, trees[k], top_m);
-        const Estimate rays = estimate(
-            sky, options.rays, [&](const Vec3& to) { return to.z > 0.0 ? sees.disc_m2() : 0.0; }, sees,
-            random, control);
-        const double boxes = sum_over_intervals(light.tree_intercepted, trees[k]);
-        if (!(boxes > 0.0)) return;
-        tree_off[k] = 1.0 - rays.value / boxes;
-        tree_noise[k] = rays.variance / (boxes * boxes);
+        const auto disc = [&](const Vec3& to) { return to.z > 0.0 ? sees.disc_m2() : 0.0; };
+        tree[k] = {sum_over_intervals(light.tree_intercepted, trees[k]),
+                   estimate(sky, kRaysPerTree * options.rays, disc, sees, random, control)};
       });
-  const Difference ground = difference(cell_off, cell_noise), tree = difference(tree_off, tree_noise);
-  return {cells.size(), trees.size(), ground.bias, ground.error, tree.bias, tree.error};
+  const Difference on_ground = difference(ground), on_trees = relative(difference(tree), tree);
+  const double per_open = open > 0.0 ? 1.0 / open : 0.0;
+  return {cells.size(),  trees.size(),  per_open * on_ground.bias, per_open * on_ground.error,
+          on_trees.bias, on_trees.error};
 }
 
 void set_errors(const LargeStandCheck& check, const StandSky& sky, LargeStandLight& light) {

@@ -47,7 +47,7 @@ struct StandStudySpec {
   bool canopy_views = true;  // openness, gaps, leaf area at the sensors
   double rays_per_cell = 1000;
   double tree_relative_error = 0.05;  // of 95 in 100 trees, by more rays than that; 0: no aim
-  int sensor_sun_rays = 16, sensor_sky_rays = 64;
+  int sensor_sun_rays = 16, sensor_sky_rays = 16;
   double patch_deg = 6, bin_deg = 5;
   std::uint64_t seed = 1;
 };
