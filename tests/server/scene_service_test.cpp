@@ -60,7 +60,7 @@ TEST_F(SceneService, NaturalCrownsArriveWhole) {
   spec.branch_share = 0.2;
   spec.clumps = {0.4, 20, 2.5};
   spec.leaf_area_factor = 1.1;
-  spec.understorey = {true, 2, 7, 1.5, 50, 0.5};
+  spec.understorey = {true, 2, 17.5, 1.5, 50, 0.5};
   spec.plot = rectangle({-5, -10}, {25, 10});
   const std::string whole = content_hash(grow_forest(spec, species(), {}));
   EXPECT_EQ(server_->client().create_scene(spec).name, "scenes/" + whole);
