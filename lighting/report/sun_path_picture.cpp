@@ -91,13 +91,11 @@ std::string plots(const std::vector<SunPath>& paths) {
     if (paths[k].points.empty()) continue;
     out << ", $path" << k << " using 1:2 with lines linewidth 2 linecolor rgb '" << kColours[k % 4]
         << "' title " << gnuplot_quoted(name_of(paths[k]));
-    if (!has_hours(paths[k])) continue;
+    // The equinoxes nearly lie on each other: the first carries the hours of both.
+    if (!has_hours(paths[k]) || k % 4 == 2) continue;
     out << ", $hours" << k << " using 1:2 with points pointtype 7 pointsize 0.7 linecolor rgb '"
-        << kColours[k % 4] << "' notitle";
-    // The equinoxes lie on each other: one of them carries the numbers.
-    if (k % 4 != 2)
-      out << ", $hours" << k
-          << " using 1:2:3 with labels boxed offset 0,0.8 font \",9\" textcolor rgb '#20242c' notitle";
+        << kColours[k % 4] << "' notitle, $hours" << k
+        << " using 1:2:3 with labels boxed offset 0,0.9 font \",9\" textcolor rgb '#20242c' notitle";
   }
   return out.str();
 }
@@ -112,7 +110,7 @@ std::string script_of(const HemisphericalPhotograph& photograph, const std::vect
       << "\nset encoding utf8\n"
          "set palette gray\nset cbrange [0:1]\nunset colorbox\nunset border\nunset tics\nset size ratio -1\n"
          "set margins 1,1,3,2\nset xrange [-1.12:1.12]\nset yrange [-1.12:1.12]\n"
-         "set style textbox opaque noborder fillcolor rgb '#c8ffffff' margins 0.2,0.1\n"
+         "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.2,0.1\n"
          "set key horizontal outside bottom center samplen 2\nset title "
       << gnuplot_quoted(title) << "\n"
       << "set label \"N\" at 0,1.06 center\nset label \"S\" at 0,-1.06 center\nset label \"E\" at -1.06,0 "

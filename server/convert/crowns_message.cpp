@@ -22,6 +22,21 @@ LeafAreaSource leaf_area_from_message(v1::LeafAreaSource source, const std::stri
   return LeafAreaSource::kDensity;
 }
 
+CrownFilling filling_from_message(v1::CrownFilling filling, const std::string& field,
+                                  Violations& violations) {
+  switch (filling) {
+    case v1::CROWN_FILLING_UNSPECIFIED:
+    case v1::CROWN_FILLING_LEAVES:
+      return CrownFilling::kLeaves;
+    case v1::CROWN_FILLING_GROWN:
+      return CrownFilling::kGrown;
+    default:
+      break;
+  }
+  violations.add(field, "unknown filling " + std::to_string(filling));
+  return CrownFilling::kLeaves;
+}
+
 void read_understorey(const v1::Understorey& message, const std::string& field, Violations& violations,
                       Understorey& under) {
   under.add = message.add();
@@ -43,6 +58,8 @@ void read_crowns(const v1::ForestSpec& message, const std::string& field, Violat
                  ForestSpec& spec) {
   if (message.has_leaf_area_factor()) spec.leaf_area_factor = message.leaf_area_factor();
   spec.leaf_area = leaf_area_from_message(message.leaf_area(), field + ".leaf_area", violations);
+  spec.filling = filling_from_message(message.filling(), field + ".filling", violations);
+  spec.height_power = message.height_power();
   spec.element_area_m2 = message.element_area_m2();
   spec.rim_power = message.rim_power();
   spec.branch_share = message.branch_share();
@@ -51,6 +68,7 @@ void read_crowns(const v1::ForestSpec& message, const std::string& field, Violat
   spec.clumps.leaf_area_m2 = message.clumps().leaf_area_m2();
   violations.number(field + ".leaf_area_factor", spec.leaf_area_factor, 1e-3, 1e3);
   violations.number(field + ".element_area_m2", spec.element_area_m2, 0, 100);
+  violations.number(field + ".height_power", spec.height_power, 0, 20);
   violations.number(field + ".rim_power", spec.rim_power, 0, 20);
   violations.number(field + ".branch_share", spec.branch_share, 0, 10);
   violations.number(field + ".clumps.radius_m", spec.clumps.radius_m, 0, 100);
@@ -63,6 +81,9 @@ void fill_crowns(const ForestSpec& spec, v1::ForestSpec& message) {
   message.set_leaf_area_factor(spec.leaf_area_factor);
   message.set_leaf_area(spec.leaf_area == LeafAreaSource::kAllometry ? v1::LEAF_AREA_SOURCE_ALLOMETRY
                                                                      : v1::LEAF_AREA_SOURCE_DENSITY);
+  message.set_filling(spec.filling == CrownFilling::kGrown ? v1::CROWN_FILLING_GROWN
+                                                           : v1::CROWN_FILLING_LEAVES);
+  message.set_height_power(spec.height_power);
   message.set_element_area_m2(spec.element_area_m2);
   message.set_rim_power(spec.rim_power);
   message.set_branch_share(spec.branch_share);

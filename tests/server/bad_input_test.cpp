@@ -119,6 +119,8 @@ TEST_F(BadInput, ForestSpecs) {
       {"spec.leaf_area", "unknown", [](Spec& s) { s.set_leaf_area(static_cast<v1::LeafAreaSource>(8)); }},
       {"spec.element_area_m2", "got -1", [](Spec& s) { s.set_element_area_m2(-1); }},
       {"spec.element_area_m2", "within 20000000", [](Spec& s) { s.set_element_area_m2(1e-9); }},
+      {"spec.filling", "unknown", [](Spec& s) { s.set_filling(static_cast<v1::CrownFilling>(8)); }},
+      {"spec.height_power", "got -1", [](Spec& s) { s.set_height_power(-1); }},
       {"spec.rim_power", "nan", [](Spec& s) { s.set_rim_power(kNan); }},
       {"spec.branch_share", "got 11", [](Spec& s) { s.set_branch_share(11); }},
       {"spec.clumps.leaf_area_m2", "got -1", [](Spec& s) { s.mutable_clumps()->set_leaf_area_m2(-1); }},

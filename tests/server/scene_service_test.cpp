@@ -57,10 +57,11 @@ TEST_F(SceneService, NaturalCrownsArriveWhole) {
   spec.leaf_area = LeafAreaSource::kAllometry;
   spec.element_area_m2 = 0.7;
   spec.rim_power = 1.5;
+  spec.height_power = 0.8;
   spec.branch_share = 0.2;
   spec.clumps = {0.4, 20, 2.5};
   spec.leaf_area_factor = 1.1;
-  spec.understorey = {true, 2, 7, 1.5, 50, 0.5};
+  spec.understorey = {true, 2, 17.5, 1.5, 50, 0.5};
   spec.plot = rectangle({-5, -10}, {25, 10});
   const std::string whole = content_hash(grow_forest(spec, species(), {}));
   EXPECT_EQ(server_->client().create_scene(spec).name, "scenes/" + whole);
@@ -68,6 +69,7 @@ TEST_F(SceneService, NaturalCrownsArriveWhole) {
       [](ForestSpec& s) { s.leaf_area = LeafAreaSource::kDensity; },
       [](ForestSpec& s) { s.element_area_m2 = 0; },
       [](ForestSpec& s) { s.rim_power = 0; },
+      [](ForestSpec& s) { s.height_power = 0; },
       [](ForestSpec& s) { s.branch_share = 0; },
       [](ForestSpec& s) { s.clumps.leaf_area_m2 = 0; },
       [](ForestSpec& s) { s.understorey.add = false; }};
@@ -76,6 +78,15 @@ TEST_F(SceneService, NaturalCrownsArriveWhole) {
     changes[i](changed);
     EXPECT_NE(content_hash(grow_forest(changed, species(), {})), whole) << i;
   }
+}
+
+TEST_F(SceneService, GrownCrownsArriveToo) {
+  ForestSpec spec = row_of_trees(2, 100);
+  spec.filling = CrownFilling::kGrown;
+  const std::string grown = content_hash(grow_forest(spec, species(), {}));
+  EXPECT_EQ(server_->client().create_scene(spec).name, "scenes/" + grown);
+  spec.filling = CrownFilling::kLeaves;
+  EXPECT_NE(content_hash(grow_forest(spec, species(), {})), grown);
 }
 
 TEST_F(SceneService, SameContentIsOneScene) {
