@@ -8,6 +8,7 @@
 #include "lighting/sky/illumination.h"
 #include "lighting/trace/ray_scene.h"
 #include "lighting/trace/receivers.h"
+#include "lighting/trace/sun_raster.h"
 #include "sim/base/run_control.h"
 
 namespace sunfleck::links {
@@ -21,5 +22,10 @@ struct DirectLight {
 DirectLight direct_light_by_rays(const trace::Receivers& receivers, const RayScene& scene,
                                  const Illumination& light, int rays_per_surface, std::uint64_t seed,
                                  const RunControl& control);
+
+// Of foliage as the sun's picture shows it (raster_sun of the same sun), of wood and ground by shadow rays.
+DirectLight direct_light_by_picture(const trace::Receivers& receivers, const RayScene& scene,
+                                    const Illumination& light, const SunExposure& picture,
+                                    int rays_per_surface, std::uint64_t seed, const RunControl& control);
 
 }  // namespace sunfleck::links

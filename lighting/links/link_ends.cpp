@@ -12,6 +12,20 @@ double sign_of(double x) { return x < 0.0 ? -1.0 : 1.0; }
 
 }  // namespace
 
+namespace {
+
+// The nearest step, or for `inwards` the one nearer to the middle of the map.
+std::uint32_t step_of(double a, double n, bool inwards) {
+  const double at = (0.5 * std::clamp(a, -1.0, 1.0) + 0.5) * n;
+  return static_cast<std::uint32_t>(!inwards ? std::lround(at) : a > 0.0 ? std::floor(at) : std::ceil(at));
+}
+
+std::uint32_t end_at(double x, double y, bool inwards) {
+  return kSkyBit | (step_of(x, kStepsX, inwards) << 16) | step_of(y, kStepsY, inwards);
+}
+
+}  // namespace
+
 std::uint32_t sky_end(const Vec3& direction) {
   const double length = std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z);
   double x = direction.x / length, y = direction.y / length;
@@ -20,10 +34,9 @@ std::uint32_t sky_end(const Vec3& direction) {
     y = (1.0 - std::abs(x)) * sign_of(y);
     x = folded;
   }
-  const auto steps = [](double a, double n) {
-    return static_cast<std::uint32_t>(std::lround((0.5 * std::clamp(a, -1.0, 1.0) + 0.5) * n));
-  };
-  return kSkyBit | (steps(x, kStepsX) << 16) | steps(y, kStepsY);
+  const std::uint32_t nearest = end_at(x, y, false);
+  // What looks up must not come back from below the horizon, where there is no sky.
+  return direction.z > 0.0 && !(sky_direction(nearest).z > 0.0) ? end_at(x, y, true) : nearest;
 }
 
 Vec3 sky_direction(std::uint32_t end) {

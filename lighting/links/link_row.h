@@ -12,8 +12,10 @@ namespace sunfleck::links {
 // One lobe of a surface of a tree.
 struct LobePlace {
   std::size_t surface, lobe;  // among its tree's
-  const LobeRays& rays;
-  int links, cast;
+  const LobeRays& of;
+  int links() const { return of.links; }
+  int cast() const { return static_cast<int>(of.rays.size()); }
+  const LinkRay& ray(int k) const { return of.rays[static_cast<std::size_t>(k)]; }
 };
 
 // Where the links of a lobe are kept; `Links`: TreeLinks, const or not.
@@ -69,11 +71,11 @@ class LobeRow {
 template <class FindRay, class IsOut, class SeesOut, class Count>
 void fill(LobeRow& row, const LobePlace& at, FindRay&& find, IsOut&& is_out, SeesOut&& sees_out,
           Count&& count) {
-  for (int k = 0; k < at.links; ++k) {
+  for (int k = 0; k < at.links(); ++k) {
     const Found found = find(k);
     row.add(found, is_out(found));
   }
-  for (int k = at.links; k < at.cast; ++k) {
+  for (int k = at.links(); k < at.cast(); ++k) {
     const bool out = sees_out(k), is_new = out ? row.none_out() : row.only_out();
     if (!is_new) {
       if (out) count(static_cast<std::uint32_t>(k));

@@ -48,6 +48,12 @@ LinksPrepared prepare_links(const Forest& forest, const LinksOptions& options, c
 links::DirectLight links_direct_light(const LinksPrepared& prepared, const Illumination& light,
                                       const LinksOptions& options, const RunControl& control);
 
+// The same from a picture of the sun for foliage (raster_sun of the same sun and ground), with few shadow
+// rays for wood and ground alone. Without `picture` it is drawn, with SunRasterOptions' own target of 5 %.
+links::DirectLight links_drawn_light(const LinksPrepared& prepared, const Illumination& light,
+                                     const LinksOptions& options, const SunExposure* picture,
+                                     const RunControl& control);
+
 // `direct`: per face of prepared.receivers, see links::DirectLight.
 LightMap links_light_map(const Forest& forest, const OpticsTable& optics, const Illumination& light,
                          const LinksOptions& options, const LinksPrepared& prepared,

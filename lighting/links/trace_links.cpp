@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <mutex>
 
@@ -41,10 +42,10 @@ class Tracer {
     t = empty_links(tree, table_.links_per_face);
     InstanceEnds& out = table_.beyond[instance];
     make_room(out, t.links.size(), 0);
-    for_each_lobe(tree, table_.links_per_face, tree_seed(instance), control_, [&](const LobePlace& at) {
+    for_each_new_lobe(tree, instance, t, [&](const LobePlace& at) {
       LobeRow row(2 * t.foliage);
       std::size_t more_sky = 0;
-      const auto ray = [&](int k) { return in_world(at.rays.ray(k), scene_.forest, instance); };
+      const auto ray = [&](int k) { return in_world(at.ray(k), scene_.forest, instance); };
       fill(
           row, at, [&](int k) { return found_from(tree, ray(k), instance); },
           [](const Found& f) { return !f.own && is_sky(f.what); },
@@ -55,7 +56,7 @@ class Tracer {
           [&](std::uint32_t) { ++more_sky; });
       row.store(t, at, links_);
       const std::size_t own = t.own_hits[at.lobe];
-      store_ends(scene_.receivers, {row_of(t, at, links_) + own, static_cast<std::size_t>(at.links) - own},
+      store_ends(scene_.receivers, {row_of(t, at, links_) + own, static_cast<std::size_t>(at.links()) - own},
                  at.lobe, more_sky, out);
     });
   }
@@ -67,21 +68,21 @@ class Tracer {
     LoneRays lone;
     lone.more_exits.resize(t.links.size());
     lone.own_m.resize(t.rows.size());
-    for_each_lobe(tree, table_.links_per_face, tree_seed(first_instance), control_, [&](const LobePlace& at) {
+    for_each_new_lobe(tree, first_instance, t, [&](const LobePlace& at) {
       LobeRow row(2 * t.foliage);
       float* own_m = lone.own_m.data() + (row_of(t, at, links_) - t.rows.data());
       fill(
           row, at,
           [&](int k) {
-            const LinkRay r = at.rays.ray(k);
+            const LinkRay r = at.ray(k);
             const RayHit hit = scene.closest_hit(r.origin_m, r.direction, 0.0, r.from);
             if (hit.kind == HitKind::kSky) return Found{false, static_cast<std::uint32_t>(k)};
-            if (k < at.links) own_m[k] = static_cast<float>(hit.distance_m);
+            if (k < at.links()) own_m[k] = static_cast<float>(hit.distance_m);
             return Found{true, own_face(tree, hit)};
           },
           [](const Found& f) { return !f.own; },
           [&](int k) {
-            const LinkRay r = at.rays.ray(k);
+            const LinkRay r = at.ray(k);
             return !scene.occluded(r.origin_m, r.direction, 0.0, r.from);
           },
           [&](std::uint32_t k) { lone.more_exits[at.lobe].push_back(static_cast<std::uint16_t>(k)); });
@@ -98,16 +99,16 @@ class Tracer {
     const TreeLinks& t = tree_links(instance);
     InstanceEnds& out = table_.beyond[instance];
     make_room(out, t.links.size(), t.first_exit.back());
-    for_each_lobe(tree, table_.links_per_face, tree_seed(instance), control_, [&](const LobePlace& at) {
-      const std::size_t own = t.own_hits[at.lobe], count = static_cast<std::size_t>(at.links) - own;
+    for_each_lobe(tree, instance, [&](const LobePlace& at) {
+      const std::size_t own = t.own_hits[at.lobe], count = static_cast<std::size_t>(at.links()) - own;
       const std::uint32_t* leaving = row_of(t, at, links_) + own;
       const std::span<std::uint32_t> ends(out.ends.data() + t.first_exit[at.lobe], count);
       const auto end_of_ray = [&](std::uint32_t k) {
-        const LinkRay ray = in_world(at.rays.ray(static_cast<int>(k)), scene_.forest, instance);
+        const LinkRay ray = in_world(at.ray(static_cast<int>(k)), scene_.forest, instance);
         return end_of(scene_.receivers, beyond(instance, ray, kEndless), ray.direction);
       };
       const auto sees_sky = [&](std::uint32_t k) {
-        const LinkRay ray = in_world(at.rays.ray(static_cast<int>(k)), scene_.forest, instance);
+        const LinkRay ray = in_world(at.ray(static_cast<int>(k)), scene_.forest, instance);
         return !scene_.rays.occluded_past(instance, ray.origin_m, ray.direction, ray.from);
       };
       std::size_t skies = 0, more_sky = 0;
@@ -116,8 +117,18 @@ class Tracer {
         const bool sky = sees_sky(k);
         more_sky += sky ? 1 : 0;
         // A kind that only these rays saw takes the place of one link.
-        if (count > 0 && sky && skies == 0) ends[0] = end_of_ray(k), ++skies, --more_sky;
-        if (count > 1 && !sky && own == 0 && skies == count) ends[0] = end_of_ray(k), --skies, ++more_sky;
+        const bool is_new = sky ? skies == 0 : own == 0 && skies == count;
+        if (!is_new || count == 0) continue;
+        const std::uint32_t end = end_of_ray(k);
+        if (is_sky(end) != sky) {  // by rounding: of the kind that is there
+          more_sky = sky ? more_sky - 1 : more_sky + 1;
+          continue;
+        }
+        ends[0] = end;
+        if (sky)
+          ++skies, --more_sky;
+        else
+          --skies, ++more_sky;
       }
       store_ends(scene_.receivers, ends, at.lobe, more_sky, out);
     });
@@ -132,11 +143,11 @@ class Tracer {
     const double scale = scene_.forest.instances[instance].scale;
     std::vector<CutLink>& cut = table_.beyond[instance].cut;
     std::mutex adding;
-    for_each_lobe(tree, table_.links_per_face, tree_seed(instance), control_, [&](const LobePlace& at) {
+    for_each_lobe(tree, instance, [&](const LobePlace& at) {
       const float* own_m = lone.own_m.data() + (row_of(t, at, links_) - t.rows.data());
-      for (int k = 0; k < at.links; ++k) {
+      for (int k = 0; k < at.links(); ++k) {
         if (own_m[k] == 0.0f) continue;
-        const LinkRay ray = at.rays.ray(k), world = in_world(ray, scene_.forest, instance);
+        const LinkRay ray = at.ray(k), world = in_world(ray, scene_.forest, instance);
         const double length_m = scale * static_cast<double>(own_m[k]);
         if (!neighbours.may_cut(world.origin_m, world.origin_m + length_m * world.direction)) continue;
         const RayHit other = beyond(instance, world, length_m);
@@ -159,10 +170,11 @@ class Tracer {
       for (std::size_t cell = begin; cell < end; ++cell) {
         control_.check();
         const SurfaceSampler surface(r, r.two_faced_count() + cell);
-        const LobeRays rays(surface, cell, kFrontUp, Part::kWhole, mix_seed(seed_, kGroundSeed));
+        const std::vector<LinkRay> rays =
+            rays_of_face(surface, true, table_.links_per_face, cell, mix_seed(seed_, kGroundSeed));
         const std::span<std::uint32_t> row(out.ends.data() + cell * links_, links_);
         for (std::size_t k = 0; k < links_; ++k) {
-          const LinkRay ray = rays.ray(static_cast<int>(k));
+          const LinkRay& ray = rays[k];
           row[k] =
               end_of(r, scene_.rays.closest_hit(ray.origin_m, ray.direction, 0.0, ray.from), ray.direction);
         }
@@ -174,6 +186,24 @@ class Tracer {
  private:
   static constexpr std::uint64_t kGroundSeed = ~std::uint64_t{0};
   static constexpr double kEndless = std::numeric_limits<double>::infinity();
+
+  using LobeVisit = std::function<void(const LobePlace&)>;
+  void for_each_lobe(const LoneTree& tree, std::uint32_t instance, const LobeVisit& visit) const {
+    for_each_surface(tree, table_.links_per_face, tree_seed(instance), control_,
+                     [&](std::size_t s, const SurfaceRays& rays) { visit_lobes(s, rays, visit); });
+  }
+  // The first time: fills in the lobes.
+  void for_each_new_lobe(const LoneTree& tree, std::uint32_t instance, TreeLinks& t,
+                         const LobeVisit& visit) const {
+    for_each_surface(tree, table_.links_per_face, tree_seed(instance), control_,
+                     [&](std::size_t s, const SurfaceRays& rays) {
+                       set_lobes(t, s, rays);
+                       visit_lobes(s, rays, visit);
+                     });
+  }
+  static void visit_lobes(std::size_t s, const SurfaceRays& rays, const LobeVisit& visit) {
+    for (std::size_t lobe = 0; lobe < kLobes; ++lobe) visit({s, kLobes * s + lobe, rays[lobe]});
+  }
 
   // What a ray from an instance meets past that instance within max_m; copies of it in other periods count.
   RayHit beyond(std::uint32_t instance, const LinkRay& ray, double max_m) const {

@@ -52,7 +52,8 @@ FaceEstimate estimate_face(const SolvedBand& solved, std::size_t face) {
 
 // What of a face's radiosity is lost, by its own rays. A ray that is lost also brings sky light to its face:
 // to keep the two apart, each group of rays goes with the radiosity solved without it. Without group h as
-// well, that radiosity is taken to first order.
+// well, that radiosity is taken to first order; where h is a group of the face's own, the other one goes with
+// the radiosity without h: they share their rays, which adds the same little to every group.
 AllThenGroups lost_radiosity(const HitMatrix& matrix, std::size_t face, const AllThenGroups& given) {
   const auto& lost = matrix.lost[face];
   double rays_lost = 0.0, weighed = 0.0;
@@ -64,8 +65,8 @@ AllThenGroups lost_radiosity(const HitMatrix& matrix, std::size_t face, const Al
   escaped[0] = weighed / matrix.rays;
   for (std::size_t i = 0; i < kGroups; ++i) {
     const int left = matrix.rays - rays_in_group(matrix.rays, face, i);
-    const double others =
-        weighed - lost[i] * given[1 + i] + (rays_lost - lost[i]) * (given[1 + i] - given[0]);
+    const double others = left < matrix.rays ? (rays_lost - lost[i]) * given[1 + i]
+                                             : weighed + rays_lost * (given[1 + i] - given[0]);
     escaped[1 + i] = left > 0 ? others / left : escaped[0];
   }
   return escaped;

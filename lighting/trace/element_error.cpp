@@ -55,13 +55,14 @@ struct Variances {
   double gain() const { return independent > 0.0 ? std::clamp(grouped / independent, 0.02, 1.0) : 1.0; }
   // A face's sums and counts of its groups, and its sum of squares.
   void add(const GroupValues& sums, const GroupValues& counts, double squares) {
-    double n = 0.0, sum = 0.0, between = 0.0;
-    for (std::size_t g = 0; g < kGroups; ++g) n += counts[g], sum += sums[g];
+    double n = 0.0, sum = 0.0, between = 0.0, groups = 0.0;
+    for (std::size_t g = 0; g < kGroups; ++g)
+      n += counts[g], sum += sums[g], groups += counts[g] > 0.0 ? 1.0 : 0.0;
     const double mean = sum / n;
     for (std::size_t g = 0; g < kGroups; ++g)
       between += counts[g] > 0.0 ? std::pow(sums[g] - counts[g] * mean, 2) / counts[g] : 0.0;
     independent += std::max(0.0, squares - n * mean * mean) / (n * (n - 1.0));
-    grouped += between / (n * (kGroups - 1.0));
+    grouped += between / (n * (groups - 1.0));
   }
 };
 
@@ -106,7 +107,7 @@ bool is_shoot(const Receivers& receivers, std::size_t element) {
 
 ShapeGains spread_gains(const BandProblem& p, const Radiosity<1>& radiosity) {
   constexpr std::size_t kElements = 4096;
-  constexpr int kFewestRays = 2 * kGroups;
+  constexpr int kFewestRays = 2 * kSequences;
   std::array<Variances, 2> rays, sun;  // of leaves, of shoots
   const std::size_t elements = p.receivers.foliage_count();
   const std::size_t step = std::max<std::size_t>(1, elements / kElements);

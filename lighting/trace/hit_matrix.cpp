@@ -22,11 +22,14 @@ class RowTracer {
 
   void trace(const SurfaceSampler& surface, bool front, std::size_t face, int begin, int end) const {
     const RandomPurpose purpose = purpose_of(surface.object().kind, front);
+    const FacePoints points(mix_seed(seed_, static_cast<std::uint64_t>(purpose)), face);
     for (int k = begin; k < end; ++k) {
-      RandomStream random(seed_, face, purpose, 2 * static_cast<std::uint32_t>(k));
-      const auto x = point_of_group(mix_seed(seed_, static_cast<std::uint64_t>(purpose)), face, k);
-      const SurfacePoint at = surface.sample_at(x[0], x[1], random);
-      const Vec3 direction = cosine_direction(front ? at.normal : -at.normal, x[2], x[3]);
+      const CubePoint x = points(k);
+      const SurfacePoint at = surface.sample_at(x[2], x[3], x[4]);
+      // A needle turned any way sends its cosine-distributed rays anywhere alike.
+      const Vec3 direction = surface.is_shoot()
+                                 ? any_direction(x[0], x[1])
+                                 : cosine_direction(front ? at.normal : -at.normal, x[0], x[1]);
       record(face, k, scene_.closest_hit(at.position_m, direction, 0.0, surface.start(at, front)), direction);
     }
   }

@@ -1,6 +1,7 @@
 // The hit matrix: what every ray that leaves a face meets, and the sky it sees where it meets nothing.
-// Independent of sun, bands and optics. Rays start evenly over the face, cosine-distributed, and are counted
-// into kGroups groups, for the standard errors (jackknife.h).
+// Independent of sun, bands and optics. Rays start evenly over the face, cosine-distributed, spread by
+// low-discrepancy points in directions first, and are counted by groups, for the standard errors
+// (jackknife.h).
 #pragma once
 
 #include <array>

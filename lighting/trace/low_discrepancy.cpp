@@ -28,8 +28,9 @@ constexpr Directions van_der_corput() {
   return v;
 }
 
-constexpr std::array<Directions, 4> kDirections = {van_der_corput(), directions(1, 0, {1, 0, 0}),
-                                                   directions(2, 1, {1, 3, 0}), directions(3, 1, {1, 3, 1})};
+constexpr std::array<Directions, kPointDimensions> kDirections = {
+    van_der_corput(), directions(1, 0, {1, 0, 0}), directions(2, 1, {1, 3, 0}), directions(3, 1, {1, 3, 1}),
+    directions(3, 2, {1, 1, 1})};
 
 std::uint32_t reversed(std::uint32_t x) {
   x = ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
@@ -40,11 +41,11 @@ std::uint32_t reversed(std::uint32_t x) {
 
 }  // namespace
 
-std::array<std::uint32_t, 4> sobol_point(std::uint32_t index) {
-  std::array<std::uint32_t, 4> x{};
+std::array<std::uint32_t, kPointDimensions> sobol_point(std::uint32_t index) {
+  std::array<std::uint32_t, kPointDimensions> x{};
   for (std::size_t bit = 0; index != 0; ++bit, index >>= 1)
     if (index & 1u)
-      for (std::size_t d = 0; d < 4; ++d) x[d] ^= kDirections[d][bit];
+      for (std::size_t d = 0; d < kPointDimensions; ++d) x[d] ^= kDirections[d][bit];
   return x;
 }
 
@@ -59,14 +60,18 @@ std::uint32_t owen_scramble(std::uint32_t fraction, std::uint32_t key) {
   return reversed(x);
 }
 
-std::array<double, 4> scrambled_point(std::uint64_t key, std::uint32_t index) {
-  const std::array<std::uint32_t, 4> x = sobol_point(index);
-  const std::uint64_t first = mix_seed(key, 1), second = mix_seed(key, 2);
-  const std::array<std::uint32_t, 4> keys = {
-      static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(first >> 32),
-      static_cast<std::uint32_t>(second), static_cast<std::uint32_t>(second >> 32)};
-  std::array<double, 4> point;
-  for (std::size_t d = 0; d < 4; ++d) point[d] = owen_scramble(x[d], keys[d]) * 0x1p-32;
+ScrambledPoints::ScrambledPoints(std::uint64_t key) {
+  for (std::size_t d = 0; d < kPointDimensions; d += 2) {
+    const std::uint64_t pair = mix_seed(key, 1 + d / 2);
+    keys_[d] = static_cast<std::uint32_t>(pair);
+    if (d + 1 < kPointDimensions) keys_[d + 1] = static_cast<std::uint32_t>(pair >> 32);
+  }
+}
+
+CubePoint ScrambledPoints::operator()(std::uint32_t index) const {
+  const std::array<std::uint32_t, kPointDimensions> x = sobol_point(index);
+  CubePoint point;
+  for (std::size_t d = 0; d < kPointDimensions; ++d) point[d] = owen_scramble(x[d], keys_[d]) * 0x1p-32;
   return point;
 }
 

@@ -19,7 +19,7 @@ class Points {
     if (kind_ == SunPoints::kIndependent) return surface.sample(random_);
     a_ = fraction_of(a_ + 0.7548776662466927);
     b_ = fraction_of(b_ + 0.5698402909980532);
-    return surface.sample_at(a_, b_, random_);
+    return surface.sample_at(a_, b_, surface.is_shoot() ? random_.uniform() : 0.0);
   }
 
  private:

@@ -11,11 +11,10 @@ namespace {
 
 // Casts one shadow ray and adds its light to the face it falls on.
 void cast(SunLight& sun, const SurfaceSampler& surface, std::size_t s, int k, const RayScene& scene,
-          const Receivers& receivers, const Illumination& light, std::uint64_t seed) {
-  RandomStream random(seed, s, RandomPurpose::kSunRays, 2 * static_cast<std::uint32_t>(k));
-  const auto x = point_of_group(mix_seed(seed, static_cast<std::uint64_t>(RandomPurpose::kSunRays)), s, k);
-  const SurfacePoint at = surface.sample_at(x[0], x[1], random);
-  const Vec3 to_sun = cone_direction(light.to_sun, light.sun_half_angle_rad, x[2], x[3]);
+          const Receivers& receivers, const Illumination& light, const FacePoints& points) {
+  const CubePoint x = points(k);
+  const SurfacePoint at = surface.sample_at(x[0], x[1], x[2]);
+  const Vec3 to_sun = cone_direction(light.to_sun, light.sun_half_angle_rad, x[3], x[4]);
   const double cosine = glm::dot(at.normal, to_sun);
   if (scene.occluded(at.position_m, to_sun, 0.0, surface.start(at, cosine >= 0.0))) return;
   ++sun.visible[s];
@@ -45,9 +44,10 @@ void extend(SunLight& sun, int rays, const RayScene& scene, const Receivers& rec
   for_each_chunk(order.size(), 32, control, "tracing sun", [&](std::size_t b, std::size_t e) {
     for (const std::uint32_t s : order.subspan(b, e - b)) {
       const SurfaceSampler surface(receivers, s);
+      const FacePoints points(mix_seed(seed, static_cast<std::uint64_t>(RandomPurpose::kSunRays)), s);
       for (int k = before; k < rays; ++k) {
         if (k % 64 == 0) control.check();
-        cast(sun, surface, s, k, scene, receivers, light, seed);
+        cast(sun, surface, s, k, scene, receivers, light, points);
       }
     }
   });

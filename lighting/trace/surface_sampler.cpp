@@ -16,11 +16,6 @@ double side_area_m2(const ConeFrustum& cone) {
   return kPi * (r0 + r1) * std::hypot(cone.length, r1 - r0);
 }
 
-Vec3 around(const Vec3& axis, double along, double across, double turn) {
-  const Basis basis = basis_around(axis);
-  return across * (std::cos(turn) * basis.tangent + std::sin(turn) * basis.bitangent) + along * axis;
-}
-
 // Even over the side of a frustum: the area below height h grows with radius^2.
 SurfacePoint on_side(const ConeFrustum& cone, double part, double turn) {
   const double r0 = cone.radius_at_base, r1 = r0 + cone.taper * cone.length;
@@ -33,34 +28,6 @@ SurfacePoint on_side(const ConeFrustum& cone, double part, double turn) {
 }
 
 }  // namespace
-
-Vec3 cosine_direction(const Vec3& normal, RandomStream& random) {
-  const double x = random.uniform(), y = random.uniform();
-  return cosine_direction(normal, x, y);
-}
-
-Vec3 cosine_direction(const Vec3& normal, double sin2, double y) {
-  // Never along the surface itself.
-  return around(normal, std::sqrt(std::max(1e-16, 1.0 - sin2)), std::sqrt(sin2), 2.0 * kPi * y);
-}
-
-Vec3 cone_direction(const Vec3& axis, double half_angle_rad, RandomStream& random) {
-  if (half_angle_rad == 0.0) return axis;
-  const double x = random.uniform(), y = random.uniform();
-  return cone_direction(axis, half_angle_rad, x, y);
-}
-
-Vec3 cone_direction(const Vec3& axis, double half_angle_rad, double x, double y) {
-  if (half_angle_rad == 0.0) return axis;
-  const double drop = x * 2.0 * std::pow(std::sin(0.5 * half_angle_rad), 2);  // 1 - cos
-  return glm::normalize(around(axis, 1.0 - drop, std::sqrt(drop * (2.0 - drop)), 2.0 * kPi * y));
-}
-
-Vec3 any_direction(RandomStream& random) {
-  const double z = 2.0 * random.uniform() - 1.0, turn = 2.0 * kPi * random.uniform();
-  const double across = std::sqrt(std::max(0.0, 1.0 - z * z));
-  return {across * std::cos(turn), across * std::sin(turn), z};
-}
 
 SurfaceSampler::SurfaceSampler(const Receivers& receivers, std::size_t surface)
     : object_(receivers.object(surface)) {
@@ -152,10 +119,12 @@ RayStart SurfaceSampler::start(const SurfacePoint& point, bool front) const {
 
 SurfacePoint SurfaceSampler::sample(RandomStream& random) const {
   const double a = random.uniform(), b = random.uniform();
-  return sample_at(a, b, random);
+  SurfacePoint point = sample_at(a, b, is_shoot() ? random.uniform() : 0.0);
+  if (is_shoot()) point.normal = any_direction(random);
+  return point;
 }
 
-SurfacePoint SurfaceSampler::sample_at(double a, double b, RandomStream& random) const {
+SurfacePoint SurfaceSampler::sample_at(double a, double b, double c) const {
   switch (shape_) {
     case Shape::kParallelogram:
       return {origin_ + (2.0 * a - 1.0) * u_ + (2.0 * b - 1.0) * v_, normal_, object_.local};
@@ -172,10 +141,9 @@ SurfacePoint SurfaceSampler::sample_at(double a, double b, RandomStream& random)
     case Shape::kShoot:
       break;
   }
-  const double r = std::sqrt(a), turn = 2.0 * kPi * b;
-  const Vec3 along = (2.0 * random.uniform() - 1.0) * u_;
-  return {origin_ + along + r * std::cos(turn) * v_ + r * std::sin(turn) * w_, any_direction(random),
-          object_.local};
+  const double r = std::sqrt(b), turn = 2.0 * kPi * c;
+  const Vec3 across = r * std::cos(turn) * v_ + r * std::sin(turn) * w_;
+  return {origin_ + (2.0 * a - 1.0) * u_ + across, unit_or_up(u_), object_.local};
 }
 
 }  // namespace sunfleck::trace

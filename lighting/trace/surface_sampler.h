@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "lighting/trace/directions.h"
 #include "lighting/trace/receivers.h"
 #include "lighting/trace/solids.h"
 #include "sim/base/random.h"
@@ -21,9 +22,10 @@ class SurfaceSampler {
 
   // For a shoot: a point of its volume and a needle normal turned any way.
   SurfacePoint sample(RandomStream& random) const;
-  // The same from two numbers in [0, 1) that spread over the surface as they spread over the unit square;
-  // only a shoot takes its remaining ones from `random`.
-  SurfacePoint sample_at(double a, double b, RandomStream& random) const;
+  // The same from numbers in [0, 1) that spread over the surface as they spread over the unit square; of a
+  // shoot over its length, and by (b, c) over its cross-section, without a normal: needles are turned any
+  // way.
+  SurfacePoint sample_at(double a, double b, double c) const;
   const RayStart& object() const { return object_; }
   // What a ray from a sampled point starts on.
   RayStart start(const SurfacePoint& point, bool front) const;
@@ -42,14 +44,5 @@ class SurfaceSampler {
   std::vector<ConeFrustum> cones_;     // of a group of wood segments
   std::vector<double> area_up_to_m2_;  // of the first, the first two, ... of them
 };
-
-// A direction with density cos / pi around the unit vector `normal`.
-Vec3 cosine_direction(const Vec3& normal, RandomStream& random);
-Vec3 cosine_direction(const Vec3& normal, double x, double y);  // from two numbers in [0, 1)
-// A direction evenly within `half_angle` of the unit vector `axis`.
-Vec3 cone_direction(const Vec3& axis, double half_angle_rad, RandomStream& random);
-Vec3 cone_direction(const Vec3& axis, double half_angle_rad, double x, double y);
-// A direction with even density over the sphere.
-Vec3 any_direction(RandomStream& random);
 
 }  // namespace sunfleck::trace

@@ -83,6 +83,33 @@ void direct_sun(benchmark::State& state) {
                  [&] { benchmark::DoNotOptimize(links_direct_light(prepared, sun_and_sky(), options, {})); });
 }
 
+// All that a further sun takes: drawing it, shadow rays for wood and ground, all bounces of one band.
+void further_sun(benchmark::State& state) {
+  if (!right()) return state.SkipWithError("wrong answer");
+  const Forest forest = crown(static_cast<int>(state.range(0)));
+  const LinksOptions options{.links_per_face = static_cast<int>(state.range(1))};
+  const LinksPrepared prepared = prepare_links(forest, options, {});
+  const OpticsTable optics = near_infrared(forest);
+  for (auto _ : state)
+    with_threads(1, [&] {
+      const links::DirectLight direct = links_drawn_light(prepared, sun_and_sky(), options, nullptr, {});
+      benchmark::DoNotOptimize(links_light_map(forest, optics, sun_and_sky(), options, prepared, direct, {}));
+    });
+}
+
+void drawn_sun(benchmark::State& state) {
+  if (!right()) return state.SkipWithError("wrong answer");
+  const Forest forest = crown(static_cast<int>(state.range(0)));
+  const LinksOptions options{.links_per_face = 16};
+  const LinksPrepared prepared = prepare_links(forest, options, {});
+  for (auto _ : state)
+    with_threads(1, [&] {
+      benchmark::DoNotOptimize(links_drawn_light(prepared, sun_and_sky(), options, nullptr, {}));
+    });
+}
+
+BENCHMARK(further_sun)->Args({40000, 16})->Args({40000, 64})->Unit(benchmark::kMillisecond);
+BENCHMARK(drawn_sun)->Args({40000})->Unit(benchmark::kMillisecond);
 BENCHMARK(prepare)->Args({40000, 16})->Args({40000, 64})->Unit(benchmark::kMillisecond)->Iterations(1);
 BENCHMARK(further_band)
     ->Args({10000, 64})

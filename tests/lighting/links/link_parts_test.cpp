@@ -1,56 +1,17 @@
-// The parts of the links method: point sets, directions in 32 bits, lobes.
+// The parts of the links method: directions in 32 bits, lobes.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
-#include <set>
 
 #include "lighting/links/link_ends.h"
 #include "lighting/links/link_lobes.h"
-#include "lighting/links/owen_points.h"
+#include "lighting/links/link_rays.h"
 #include "sim/base/random.h"
+#include "tests/lighting/trace/scenes.h"
 
 namespace sunfleck::links {
 namespace {
-
-TEST(OwenPoints, SobolsFirstPointsAreThePublishedOnes) {
-  // Joe and Kuo's sequence, plain binary order: 1/2 everywhere, then (1/4, 3/4, 3/4, 3/4).
-  EXPECT_EQ(sobol_bits(0), (std::array<std::uint32_t, 4>{0, 0, 0, 0}));
-  for (const std::uint32_t b : sobol_bits(1)) EXPECT_EQ(b, 0x80000000u);
-  EXPECT_EQ(sobol_bits(2),
-            (std::array<std::uint32_t, 4>{0x40000000u, 0xC0000000u, 0xC0000000u, 0xC0000000u}));
-}
-
-// What scrambling must keep: each of 64 equal parts of every axis holds one of the first 64 points, and so
-// does each of the 8 x 8 squares of the first two dimensions.
-TEST(OwenPoints, EveryPartHoldsOnePoint) {
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    std::array<std::set<int>, 4> parts;
-    std::set<int> squares;
-    for (std::uint32_t i = 0; i < 64; ++i) {
-      const Point4 p = owen_point(i, seed);
-      for (std::size_t d = 0; d < 4; ++d) {
-        EXPECT_GE(p[d], 0.0);
-        EXPECT_LT(p[d], 1.0);
-        parts[d].insert(static_cast<int>(64 * p[d]));
-      }
-      squares.insert(8 * static_cast<int>(8 * p[0]) + static_cast<int>(8 * p[1]));
-    }
-    for (const auto& axis : parts) EXPECT_EQ(axis.size(), 64u);
-    EXPECT_EQ(squares.size(), 64u);
-  }
-}
-
-// One point alone is even over the cube: its mean over 20,000 seeds is 1/2 within 5 standard errors
-// (0.289 / sqrt(20,000) each; chance of a false alarm 4e-6), for an early and a late point.
-TEST(OwenPoints, EveryPointAloneIsEven) {
-  constexpr int kSeeds = 20000;
-  for (const std::uint32_t index : {0u, 37u, 511u}) {
-    Point4 mean{};
-    for (std::uint64_t seed = 0; seed < kSeeds; ++seed)
-      for (std::size_t d = 0; d < 4; ++d) mean[d] += owen_point(index, mix_seed(seed, 7))[d] / kSeeds;
-    for (const double m : mean) EXPECT_NEAR(m, 0.5, 5 * 0.289 / std::sqrt(kSeeds));
-  }
-}
 
 TEST(LinkEnds, DirectionsComeBack) {
   RandomStream random(3, 0, RandomPurpose::kTestScene);
@@ -65,47 +26,86 @@ TEST(LinkEnds, DirectionsComeBack) {
     const Vec3 p(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
     if (glm::length(p) > 1e-3) check(glm::normalize(p));
   }
+  for (int i = 0; i < 1000; ++i) {  // along the horizon
+    const double turn = random.uniform(0, 2 * kPi), z = 1e-4 * random.uniform();
+    const Vec3 d = glm::normalize(Vec3(std::cos(turn), std::sin(turn), z + 1e-9));
+    check(d);
+    EXPECT_GT(sky_direction(sky_end(d)).z, 0.0);
+  }
   EXPECT_LT(worst, 2e-4);  // steps of 6e-5 and 3e-5 on the octahedron, stretched up to threefold
 }
 
-// Shares of the hemisphere above the horizon: known, and all rays are dealt out.
-TEST(LinkLobes, SharesAddUp) {
+// A tree of one leaf of this normal, or of one shoot.
+Forest one_leaf(const Vec3& normal) {
+  const Basis basis = basis_around(normal);
+  return test::forest_of({test::quad({0, 0, 1}, 0.1 * basis.tangent, 0.1 * basis.bitangent)});
+}
+
+// Shares of the hemisphere above the horizon are known, all rays are dealt out, and every ray looks where its
+// lobe does.
+TEST(LinkRays, AreDealtOutOverTheLobes) {
   for (const int links : {16, 17, 64, 256})
-    for (const double z : {-1.0, -0.999999999, -0.7, -1e-9, 0.0, 0.3, 0.95, 1.0}) {
-      const Lobes lobes = leaf_lobes(links, z);
+    for (const double z : {-1.0, -0.999999999, -0.99, -0.7, -1e-9, 0.0, 0.3, 0.95, 1.0}) {
+      const Vec3 normal(std::sqrt(1 - z * z), 0, z);
+      const SurfaceRays rays = rays_of_surface({one_leaf(normal), PrototypeId{0}}, 0, links, 5);
       int all = 0;
-      for (const LobeShare& l : lobes) {
-        all += l.links;
-        EXPECT_EQ(l.links == 0, l.weight == 0.0) << z;
-        EXPECT_GE(l.cast, l.links);
-        EXPECT_LT(l.cast, 1024);
+      for (std::size_t l = 0; l < kLobes; ++l) {
+        all += rays[l].links;
+        EXPECT_EQ(rays[l].links == 0, rays[l].weight == 0.0) << z;
+        EXPECT_GE(rays[l].rays.size(), static_cast<std::size_t>(rays[l].links));
+        const bool up = l == kFrontUp || l == kBackUp, front = l == kFrontUp || l == kFrontDown;
+        for (const LinkRay& r : rays[l].rays) {
+          EXPECT_NEAR(glm::length(r.direction), 1.0, 1e-12);
+          EXPECT_GT((front ? 1 : -1) * glm::dot(r.direction, normal), -1e-7);
+          EXPECT_GT((up ? 1 : -1) * r.direction.z, -1e-6) << z << " " << l;
+          EXPECT_EQ(r.from.front, front);
+        }
       }
       EXPECT_EQ(all, 2 * links);
-      EXPECT_DOUBLE_EQ(lobes[kFrontUp].weight + lobes[kFrontDown].weight, 1.0);
-      EXPECT_DOUBLE_EQ(lobes[kBackUp].weight + lobes[kBackDown].weight, 1.0);
-      EXPECT_NEAR(lobes[kFrontUp].weight, 0.5 * (1 + z), 1e-6);
+      EXPECT_DOUBLE_EQ(rays[kFrontUp].weight + rays[kFrontDown].weight, 1.0);
+      EXPECT_DOUBLE_EQ(rays[kBackUp].weight + rays[kBackDown].weight, 1.0);
+      EXPECT_NEAR(rays[kFrontUp].weight, 0.5 * (1 + z), 1e-6);
     }
 }
 
-// The two parts of a hemisphere hold what they should, and together they are the whole: mean direction of a
-// cosine-distributed ray is 2/3 of the normal. Midpoints of a 200 x 200 grid: good to 1e-3.
-TEST(LinkLobes, PartsMakeUpTheCosineHemisphere) {
+TEST(LinkRays, ShootsShareThemEvenly) {
+  const Forest forest = test::forest_of({test::shoot({0, 0, 1}, {0.1, 0, 0}, 0.02, 0.01)});
+  const SurfaceRays rays = rays_of_surface({forest, PrototypeId{0}}, 0, 64, 5);
+  for (const LobeRays& lobe : rays) {
+    EXPECT_EQ(lobe.links, 32);
+    EXPECT_EQ(lobe.weight, 0.5);
+  }
+}
+
+// A face's two lobes together are its cosine-weighted hemisphere: its mean direction is 2/3 of the normal.
+// Midpoints of a 200 x 200 grid, from the map over both faces and from that of one lobe: good to 2e-3.
+TEST(LinkLobes, MakeUpTheCosineHemispheres) {
   constexpr int kGrid = 200;
   for (const Vec3& n :
        {Vec3(0, 0, 1), Vec3(0.6, 0, 0.8), Vec3(0, 1, 0), Vec3(0, -0.8, -0.6), Vec3(0, 0, -1)}) {
-    Vec3 sum(0);
-    for (const Part part : {Part::kUp, Part::kDown}) {
-      const double weight = part == Part::kUp ? 0.5 * (1 + n.z) : 0.5 * (1 - n.z);
-      if (weight == 0.0) continue;
-      for (int i = 0; i < kGrid * kGrid; ++i) {
-        const Vec3 d = cosine_direction(n, part, (i % kGrid + 0.5) / kGrid, (i / kGrid + 0.5) / kGrid);
-        EXPECT_NEAR(glm::length(d), 1.0, 1e-12);
-        EXPECT_GT(glm::dot(d, n), 0.0);
-        EXPECT_TRUE(part == Part::kUp ? d.z > -1e-7 : d.z < 1e-7) << d.z;
-        sum += weight / (kGrid * kGrid) * d;
+    std::array<Vec3, kLobes> sums{}, alone{};
+    std::array<double, kLobes> counts{};
+    for (int i = 0; i < kGrid * kGrid; ++i)
+      for (const Half half : {Half::kUp, Half::kDown}) {
+        const double a = (i % kGrid + 0.5) / kGrid, b = (i / kGrid + 0.5) / kGrid;
+        const LeafDirection d = leaf_direction(n, half, a, b);
+        EXPECT_TRUE(half == Half::kUp ? d.direction.z > -1e-7 : d.direction.z < 1e-7) << d.direction.z;
+        sums[lobe_of(half, d.front)] += d.direction;
+        counts[lobe_of(half, d.front)] += 1;
+        for (const bool front : {true, false})
+          alone[lobe_of(half, front)] += lobe_direction(front ? n : -n, half, a, b);
       }
+    for (const bool front : {true, false}) {
+      Vec3 together(0), apart(0);
+      for (const Half half : {Half::kUp, Half::kDown}) {
+        const Lobe lobe = lobe_of(half, front);
+        EXPECT_NEAR(counts[lobe] / (kGrid * kGrid), lobe_weight(lobe, n.z), 5e-3);
+        if (counts[lobe] > 0) together += lobe_weight(lobe, n.z) / counts[lobe] * sums[lobe];
+        apart += lobe_weight(lobe, n.z) / (kGrid * kGrid) * alone[lobe];
+      }
+      EXPECT_LT(glm::length(together - (front ? 2.0 : -2.0) / 3.0 * n), 5e-3);
+      EXPECT_LT(glm::length(apart - (front ? 2.0 : -2.0) / 3.0 * n), 2e-3);
     }
-    EXPECT_LT(glm::length(sum - 2.0 / 3.0 * n), 1e-3);
   }
 }
 

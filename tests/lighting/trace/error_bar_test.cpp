@@ -44,10 +44,10 @@ struct Runs {
   std::vector<LightMap> maps;
 };
 
-Runs runs(const Illumination& light, int rays, int sun_rays) {
+Runs runs(const Illumination& light, int rays, int sun_rays, int seeds = kSeeds) {
   const Forest forest = two_trees();
   Runs r;
-  for (int s = 1; s <= kSeeds; ++s) {
+  for (int s = 1; s <= seeds; ++s) {
     ReferenceOptions o;
     o.seed = static_cast<std::uint64_t>(s);
     o.rays_per_face = rays;
@@ -114,14 +114,13 @@ void expect_calibrated(const Runs& r) {
 
 TEST(ErrorBars, SkyWithManyBounces) { expect_calibrated(runs(skylight(100.0), 32, 1)); }
 
-// With fewer rays than groups the errors are on the safe side: a factor up to n / (n - 1) in variance.
+// Two sequences of two rays. The rays of an element fall short of their spread, which is pooled over all.
+// 1024 seeds: trees and means scatter by 6 %.
 TEST(ErrorBars, FewRays) {
-  const Runs r = runs(sunlight({1, 1, 2}, 400.0, 100.0), 4, 4);
+  const Runs r = runs(sunlight({1, 1, 2}, 400.0, 100.0), 4, 4, 1024);
   expect_near_one(of_elements(r).ratio(), "squares of elements, summed");
-  for (const Calibration& c : {of_tree(r, 0), of_tree(r, 1), of_mean(r)}) {
-    EXPECT_GT(c.z_variance(), 0.5);
-    EXPECT_LT(c.z_variance(), 1.25);
-  }
+  for (const Calibration& c : {of_tree(r, 0), of_tree(r, 1), of_mean(r)})
+    expect_near_one(c.z_variance(), "z of trees and mean");
 }
 
 TEST(ErrorBars, SunAndSky) { expect_calibrated(runs(sunlight({1, 1, 2}, 400.0, 100.0), 64, 32)); }

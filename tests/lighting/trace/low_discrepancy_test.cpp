@@ -11,21 +11,24 @@ namespace {
 
 TEST(LowDiscrepancy, FirstPointsAreThePublishedOnes) {
   // In the order without Gray code: 0, 1/2, 1/4, 3/4 and their partners.
-  const std::array<std::array<double, 4>, 4> known = {
-      {{0, 0, 0, 0}, {0.5, 0.5, 0.5, 0.5}, {0.25, 0.75, 0.75, 0.75}, {0.75, 0.25, 0.25, 0.25}}};
+  const std::array<CubePoint, 4> known = {{{0, 0, 0, 0, 0},
+                                           {0.5, 0.5, 0.5, 0.5, 0.5},
+                                           {0.25, 0.75, 0.75, 0.75, 0.25},
+                                           {0.75, 0.25, 0.25, 0.25, 0.75}}};
   for (std::uint32_t i = 0; i < 4; ++i)
-    for (std::size_t d = 0; d < 4; ++d) EXPECT_EQ(sobol_point(i)[d] * 0x1p-32, known[i][d]) << i << " " << d;
+    for (std::size_t d = 0; d < kPointDimensions; ++d)
+      EXPECT_EQ(sobol_point(i)[d] * 0x1p-32, known[i][d]) << i << " " << d;
 }
 
 // Any first 2^m points put one into every 2^-m of each axis, and one into every cell of the first two axes'
 // 2^-a x 2^-(m-a), before and after scrambling.
 TEST(LowDiscrepancy, EveryStratumHoldsOnePoint) {
   for (const std::uint64_t key : {1u, 2u, 77u}) {
-    std::array<std::set<int>, 4> strata;
+    std::array<std::set<int>, kPointDimensions> strata;
     std::set<std::pair<int, int>> cells;
     for (std::uint32_t i = 0; i < 64; ++i) {
-      const auto x = scrambled_point(key, i);
-      for (std::size_t d = 0; d < 4; ++d) {
+      const auto x = ScrambledPoints(key)(i);
+      for (std::size_t d = 0; d < kPointDimensions; ++d) {
         ASSERT_GE(x[d], 0.0);
         ASSERT_LT(x[d], 1.0);
         strata[d].insert(static_cast<int>(64 * x[d]));
@@ -42,11 +45,11 @@ TEST(LowDiscrepancy, EveryStratumHoldsOnePoint) {
 TEST(LowDiscrepancy, EveryPointAloneIsEven) {
   constexpr int kKeys = 4000;
   for (const std::uint32_t index : {0u, 1u, 13u})
-    for (std::size_t d = 0; d < 4; ++d) {
+    for (std::size_t d = 0; d < kPointDimensions; ++d) {
       double mean = 0, square = 0, product = 0;
       for (int k = 0; k < kKeys; ++k) {
-        const double x = scrambled_point(static_cast<std::uint64_t>(k), index)[d] - 0.5;
-        const double y = scrambled_point(static_cast<std::uint64_t>(k) + 1, index)[d] - 0.5;
+        const double x = ScrambledPoints(static_cast<std::uint64_t>(k))(index)[d] - 0.5;
+        const double y = ScrambledPoints(static_cast<std::uint64_t>(k) + 1)(index)[d] - 0.5;
         mean += x / kKeys, square += x * x / kKeys, product += x * y / kKeys;
       }
       EXPECT_NEAR(mean, 0, 4 * std::sqrt(1.0 / 12 / kKeys));

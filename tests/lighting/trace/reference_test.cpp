@@ -109,11 +109,11 @@ TEST(Reference, DoublesRaysUntilTheTargetIsMet) {
   const Forest forest = small_tree();
   ReferenceOptions o;
   o.rays_per_face = o.sun_rays_per_element = 8;
-  o.target_relative_error = 0.05;
+  o.target_relative_error = 0.02;
   const LightMap map = trace_light(forest, 0.2, sunlight({1, 0, 2}, 400, 100), o);
   double squares = 0.0;
   for (const float e : map.bands[0].standard_error_w_m2) squares += e * e / 301.0;
-  EXPECT_LE(std::sqrt(squares), 0.05 * map.bands[0].mean_irradiance_w_m2);
+  EXPECT_LE(std::sqrt(squares), 0.02 * map.bands[0].mean_irradiance_w_m2);
   EXPECT_TRUE(map.provenance.notes.size() == 1) << "only that shoots scatter alike";
   EXPECT_NE(map.provenance.settings[0].second, "8");
 
