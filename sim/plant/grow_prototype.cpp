@@ -125,7 +125,8 @@ Prototype grow_prototype(const Species& species, const TreeSize& size, std::uint
     throw_invalid(species.latin + ": grammar", "the species has no grammar to grow",
                   "a `grammar` in its file, or a crown filled with leaves");
   lsystem::Drawing drawing = draw_to_leaf_area(species, size, seed, control);
-  const std::vector<WoodSegment> wood = piped_wood(drawing, kPipeExponent, kLivingShare);
+  const std::vector<WoodSegment> wood =
+      piped_wood(drawing, kPipeExponent, living_share(size.dbh_m, size.leaf_area_m2));
   remove_crossing(drawing, whole_tree(species, size, drawing, all_organs(drawing), wood));
   const auto kept = choose_organs(drawing.organs.size(), species.foliage, size.leaf_area_m2, detail, seed);
   Prototype tree = whole_tree(species, size, drawing, kept, carrying_wood(drawing, kept, wood));

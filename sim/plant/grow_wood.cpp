@@ -24,6 +24,11 @@ void thicken_by_disused_pipes(std::vector<double>& radius, double exponent, doub
 
 }  // namespace
 
+double living_share(double dbh_m, double leaf_area_m2) {
+  SUNFLECK_EXPECTS(dbh_m > 0 && leaf_area_m2 > 0);
+  return std::min(kLivingShare, kMostLivingWood_m2_per_m2 * leaf_area_m2 / (0.25 * kPi * dbh_m * dbh_m));
+}
+
 std::vector<double> pipe_radii(const lsystem::Drawing& drawing, double exponent) {
   SUNFLECK_EXPECTS(exponent >= 2 && exponent <= 3);
   const auto& segments = drawing.segments;

@@ -19,6 +19,13 @@ inline constexpr double kPipeExponent = 2.0;
 // were shed. Assumed: half, about the sapwood of grown conifers.
 inline constexpr double kLivingShare = 0.5;
 
+// Cross-section of living wood that feeds a square metre of leaves, at most: 5 cm2 (assumed, the upper range
+// of measured Huber values). A stem thicker than that for its leaves is mostly disused.
+inline constexpr double kMostLivingWood_m2_per_m2 = 5e-4;
+
+// The share for a tree of this DBH and leaf area: kLivingShare, or less where the leaves are few.
+double living_share(double dbh_m, double leaf_area_m2);
+
 // Radius of each segment in units of one pipe. A segment's pipes are its organs' and its children's; a dead
 // end (neither) counts as one. Parents come before their children, as the turtle draws them.
 std::vector<double> pipe_radii(const lsystem::Drawing& drawing, double exponent);

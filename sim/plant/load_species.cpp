@@ -53,8 +53,8 @@ FoliageTemplate read_foliage(const ConfigTable& table) {
     foliage.needle_length_m = table.number("needle_length_m", kSize_m);
     foliage.needle_width_m = table.number("needle_width_m", kSize_m);
     foliage.needles_per_m = table.number("needles_per_m", {1.0, 1e6});
-    foliage.needles_per_fascicle = static_cast<std::uint32_t>(
-        table.integer_or("needles_per_fascicle", 1, {1, 200}));
+    foliage.needles_per_fascicle =
+        static_cast<std::uint32_t>(table.integer_or("needles_per_fascicle", 1, {1, 200}));
     foliage.needles_combed = table.boolean_or("needles_combed", false);
   }
   foliage.angles = read_angles(table);

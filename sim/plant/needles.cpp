@@ -10,10 +10,10 @@ namespace sunfleck {
 namespace {
 
 constexpr double kGoldenAngle_rad = 2.399963229728653;
-constexpr double kTwigShare = 0.08;        // needles begin at this share of the shoot's radius from its axis
-constexpr double kCombedShare = 0.25;      // how much of its way out of the plane a combed needle keeps
+constexpr double kTwigShare = 0.08;    // needles begin at this share of the shoot's radius from its axis
+constexpr double kCombedShare = 0.25;  // how much of its way out of the plane a combed needle keeps
 constexpr double kFascicleSpread_rad = 0.2;  // half the angle between the two needles of a pair
-constexpr std::uint32_t kTuft = 6;           // from so many needles on, a fascicle is a tuft round a short shoot
+constexpr std::uint32_t kTuft = 6;  // from so many needles on, a fascicle is a tuft round a short shoot
 
 // The shoot's frame and the needle's size in it.
 struct ShootFrame {
@@ -51,39 +51,48 @@ Needle leaning(const ShootFrame& f, double share, double azimuth_rad) {
   return {Vec3f(base), Vec3f(base + out_m * outward + forward_m * f.along), 0};
 }
 
-// A needle of a tuft at `share` of the way along: `tilt` from the short shoot, towards `turn` round it. It is
-// turned over where it would reach beyond an end of the shoot.
-Needle spread(const ShootFrame& f, double share, double azimuth_rad, double tilt_rad, double turn_rad) {
-  const Vec3 outward = f.outward(azimuth_rad), across = glm::cross(f.along, outward);
-  const Vec3 base = f.foot_m + share * f.length_m * f.along + kTwigShare * f.radius_m * outward;
-  const double side_m = f.needle_m * std::sin(tilt_rad);
-  double forward_m = side_m * std::cos(turn_rad);
-  if (share * f.length_m + forward_m > f.length_m || share * f.length_m + forward_m < 0) forward_m = -forward_m;
-  const Vec3 way = f.needle_m * std::cos(tilt_rad) * outward + forward_m * f.along +
-                   side_m * std::sin(turn_rad) * across;
-  return {Vec3f(base), Vec3f(base + way), 0};
-}
-
-// Least tilt from the short shoot at which the tip stays inside the cylinder, whatever the turn: the tip is at
-// most sqrt((r0 + l cos t)^2 + (l sin t)^2) from the axis; with r0 = 0 that is l, so long needles must lie
-// along the shoot more than across. `across` is the share of the sideways part that is allowed.
+// How far a needle of a tuft may go aside before its tip leaves the cylinder, as a share of its sideways
+// part: out by r0 + l cos(tilt) already, it has sqrt(r^2 - that^2) left across the shoot; along it there is
+// room.
 double most_across(const ShootFrame& f, double tilt_rad) {
   const double out_m = kTwigShare * f.radius_m + f.needle_m * std::cos(tilt_rad);
   const double room_m2 = f.radius_m * f.radius_m - out_m * out_m;
-  const double side_m = f.needle_m * std::sin(tilt_rad);
-  return room_m2 <= 0 ? 0 : std::min(1.0, std::sqrt(room_m2) / side_m);
+  return room_m2 <= 0 ? 0 : std::min(1.0, std::sqrt(room_m2) / (f.needle_m * std::sin(tilt_rad)));
 }
 
-void add_tuft(const ShootFrame& f, double share, double azimuth_rad, std::uint32_t count,
+// A needle of a tuft at `foot_m` along: `tilt` from the short shoot, towards `turn` round it; turned over
+// where it would reach beyond an end of the shoot.
+Needle spread(const ShootFrame& f, double foot_m, double azimuth_rad, double tilt_rad, double turn_rad) {
+  const Vec3 outward = f.outward(azimuth_rad), sideways = glm::cross(f.along, outward);
+  const double most = most_across(f, tilt_rad), across = std::clamp(std::sin(turn_rad), -most, most);
+  const double side_m = f.needle_m * std::sin(tilt_rad);
+  double forward_m = side_m * std::sqrt(1 - across * across) * (std::cos(turn_rad) < 0 ? -1 : 1);
+  if (foot_m + forward_m > f.length_m || foot_m + forward_m < 0) forward_m = -forward_m;
+  const Vec3 base = f.foot_m + foot_m * f.along + kTwigShare * f.radius_m * outward;
+  const Vec3 way =
+      f.needle_m * std::cos(tilt_rad) * outward + forward_m * f.along + side_m * across * sideways;
+  return {Vec3f(base), Vec3f(base + way), 0};
+}
+
+// Needles over the half sphere round the short shoot, none steeper than the cylinder is high.
+void add_tuft(const ShootFrame& f, double foot_m, double azimuth_rad, std::uint32_t count,
               RandomStream& random, std::vector<Needle>& needles) {
   const double steepest = std::acos(std::min(1.0, (1 - kTwigShare) * f.radius_m / f.needle_m));
   for (std::uint32_t k = 0; k < count; ++k) {
     const double level = (k + random.uniform()) / count;
-    const double tilt = std::min(std::max(std::acos(1 - level), steepest), 0.5 * kPi);
-    const double turn = kGoldenAngle_rad * k;
-    const double across = most_across(f, tilt);
-    const double kept = std::abs(std::sin(turn)) <= across ? turn : std::asin(across * (std::sin(turn) < 0 ? -1 : 1));
-    needles.push_back(spread(f, share, azimuth_rad, tilt, std::cos(turn) < 0 && kept != turn ? kPi - kept : kept));
+    const double tilt = std::max(std::acos(1 - level), steepest);
+    needles.push_back(spread(f, foot_m, azimuth_rad, tilt, kGoldenAngle_rad * k));
+  }
+}
+
+// The needles of one fascicle: a tuft, or one or a few beside each other.
+void add_fascicle(const ShootFrame& f, const FoliageTemplate& foliage, double share, double azimuth_rad,
+                  std::uint32_t count, RandomStream& random, std::vector<Needle>& needles) {
+  const std::uint32_t each = foliage.needles_per_fascicle;
+  if (each >= kTuft) return add_tuft(f, share * f.length_m, azimuth_rad, count, random, needles);
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const double turned = azimuth_rad + (each > 1 ? kFascicleSpread_rad * (2.0 * k / (each - 1) - 1) : 0);
+    needles.push_back(leaning(f, share, foliage.needles_combed ? combed(turned) : turned));
   }
 }
 
@@ -106,14 +115,7 @@ void expand_needles(const FoliageElement& shoot, const FoliageTemplate& foliage,
     const double share = (static_cast<double>(i) + 0.5) / static_cast<double>(fascicles);
     const double azimuth = start + kGoldenAngle_rad * static_cast<double>(i);
     const auto here = static_cast<std::uint32_t>(std::min<std::size_t>(each, count - i * each));
-    if (each >= kTuft) {
-      add_tuft(f, share, azimuth, here, random, needles);
-      continue;
-    }
-    for (std::uint32_t k = 0; k < here; ++k) {
-      const double turned = azimuth + (each > 1 ? kFascicleSpread_rad * (2.0 * k / (each - 1) - 1) : 0);
-      needles.push_back(leaning(f, share, foliage.needles_combed ? combed(turned) : turned));
-    }
+    add_fascicle(f, foliage, share, azimuth, here, random, needles);
   }
   const auto radius_m = static_cast<float>(shoot.area_m2 / (kPi * f.needle_m * static_cast<double>(count)));
   for (std::size_t i = begin; i < needles.size(); ++i) needles[i].radius_m = radius_m;

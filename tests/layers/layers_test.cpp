@@ -21,6 +21,7 @@ const std::map<std::string, int>& ranks() {
                                                    {"sim/config", 1},
                                                    {"sim/lsystem", 1},
                                                    {"sim/plant", 2},
+                                                   {"sim/growth", 3},
                                                    {"sim/forest", 3},
                                                    {"sim/exchange", 4},
                                                    {"sim/grid", 4},

@@ -81,6 +81,14 @@ TEST(GrownWood, ThinnedTreesHaveNoBareTwigs) {
   }
 }
 
+// A stem of 30 cm has 707 cm2: with 80 m2 of leaves the rule's half is less than 5 cm2 per m2, with 18.7 m2
+// (birch) not.
+TEST(PipedWood, FewLeavesHaveLittleLivingWood) {
+  EXPECT_DOUBLE_EQ(living_share(0.3, 80), kLivingShare);
+  EXPECT_NEAR(living_share(0.3, 18.7), 5e-4 * 18.7 / (0.25 * kPi * 0.09), 1e-12);
+  EXPECT_LT(living_share(0.6, 41), 0.1);
+}
+
 lsystem::Drawing forked() {
   const auto grammar = lsystem::Grammar::parse(
       "symbols: Leaf\norgans: Leaf\naxiom: F[+F Leaf][-F Leaf]F[+F Leaf]F Leaf\n", "forked");

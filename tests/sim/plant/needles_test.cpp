@@ -51,7 +51,8 @@ TEST(Needles, KeepTheShootsAreaAndNumber) {
         area_m2 += kPi * length * n.radius_m;
       }
       EXPECT_NEAR(area_m2, scale * scale * foliage.shoot_area_m2(), 1e-4 * area_m2) << file;
-      EXPECT_NEAR(2 * needles[0].radius_m, scale * foliage.needle_width_m, 1e-2 * scale * foliage.needle_width_m);
+      EXPECT_NEAR(2 * needles[0].radius_m, scale * foliage.needle_width_m,
+                  1e-2 * scale * foliage.needle_width_m);
     }
   }
 }
@@ -107,13 +108,15 @@ TEST(Needles, AreTheSameTwiceAndOtherForAnotherShoot) {
   expand_needles(level_shoot(foliage, 1), foliage, 3, 7, a);
   expand_needles(level_shoot(foliage, 1), foliage, 3, 7, b);
   expand_needles(level_shoot(foliage, 1), foliage, 3, 8, c);
-  const auto same = [](const Needle& x, const Needle& y) { return x.base_m == y.base_m && x.tip_m == y.tip_m; };
+  const auto same = [](const Needle& x, const Needle& y) {
+    return x.base_m == y.base_m && x.tip_m == y.tip_m;
+  };
   EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin(), same));
   EXPECT_FALSE(std::equal(a.begin(), a.end(), c.begin(), same));
 }
 
-// 2 to 4 million needles are counted on spruces of this size; as shoots they must fit in 60 MB, and the tree's
-// leaf area is that of its needles.
+// 2 to 4 million needles are counted on spruces of this size; as shoots they must fit in 60 MB, and the
+// tree's leaf area is that of its needles.
 TEST(Needles, ASpruceOf30CmHasMillionsAndFits) {
   const Species spruce = species_of("picea_abies");
   const Prototype tree = grow_prototype(spruce, expected_size(spruce, 30), 1, 1);
