@@ -30,6 +30,10 @@ Vec3 scattering(const Surface& s, const Vec3& from_light, const Vec3& to_viewer)
   return s.reflect * share;
 }
 
+double cosine_factor(const Surface& s, const Vec3& direction) {
+  return s.is_shoot ? 1.0 : std::abs(glm::dot(s.normal, direction));
+}
+
 SurfaceTable::SurfaceTable(const PictureScene& scene, const OpticsTable& optics, std::size_t band,
                            const PictureColour& colour, const PictureLook& look)
     : scene_(scene), optics_(optics), band_(band), colour_(colour), look_(look) {}
