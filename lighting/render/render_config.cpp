@@ -55,6 +55,8 @@ RenderSettings read_render_settings(const ConfigTable& table) {
                                                                                        : LeafSun::kTraced;
   s.look.outline = read_outline(table);
   s.look.patterns = table.boolean_or("patterns", true);
+  s.look.ground = table.choice_or("ground", "litter", {"litter", "grass"}) == "grass" ? GroundCover::kGrass
+                                                                                      : GroundCover::kLitter;
   s.look.leaf_gloss = table.number_or("leaf_gloss", 0.0, {0.0, 1.0});
   s.look.gloss_exponent = table.number_or("gloss_exponent", 20.0, {1.0, 1000.0});
   s.look.bark_width_m = table.number_or("bark_width_m", 0.5, {1e-3, 100.0});

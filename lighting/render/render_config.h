@@ -21,9 +21,9 @@ struct RenderSettings {
 
 // Keys: mode ("light_map", "path_traced"), noise, max_samples_per_pixel, leaf_sun ("traced", "stored"),
 // leaf_outline ("by_species", "as_modelled", "ovate", "lobed", "needle"), patterns, leaf_gloss,
-// gloss_exponent, bark_width_m, tone ("linear", "filmic"), exposure_stops, and [[render.textures]]: material,
-// leaf_alpha, leaf_reflectance, leaf_thickness, leaf_normal, bark (image files, relative to the scene file).
-// Others are refused.
+// ground ("litter", "grass"), gloss_exponent, bark_width_m, tone ("linear", "filmic"), exposure_stops, and
+// [[render.textures]]: material, leaf_alpha, leaf_reflectance, leaf_thickness, leaf_normal, bark (image
+// files, relative to the scene file). Others are refused.
 RenderSettings read_render_settings(const ConfigTable& table);
 
 }  // namespace sunfleck

@@ -89,7 +89,8 @@ Surface SurfaceTable::ground(const RayHit& hit) const {
   const double albedo = optics_.soil_albedo(band_);
   Surface s;
   s.normal = hit.normal;
-  s.reflect = albedo * channel_factor(albedo, colour_.soil_exponent);
+  const bool grass = look_.ground == GroundCover::kGrass;
+  s.reflect = albedo * channel_factor(albedo, grass ? colour_.leaf_exponent : colour_.soil_exponent);
   if (look_.patterns) s.reflect *= litter_pattern({hit.position_m.x, hit.position_m.y});
   keep_energy(s);
   return s;

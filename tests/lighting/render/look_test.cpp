@@ -223,7 +223,8 @@ TEST(RenderConfig, ReadsEveryKeyAndRefusesOthers) {
   const RenderSettings s = read(
       "mode = \"path_traced\"\nnoise = 0.02\nmax_samples_per_pixel = 100\nleaf_sun = "
       "\"stored\"\nleaf_outline = "
-      "\"lobed\"\npatterns = false\nleaf_gloss = 0.2\ngloss_exponent = 30\nbark_width_m = 1\ntone = "
+      "\"lobed\"\npatterns = false\nleaf_gloss = 0.2\nground = \"grass\"\ngloss_exponent = 30\nbark_width_m "
+      "= 1\ntone = "
       "\"filmic\"\n"
       "exposure_stops = 0.5\n[[textures]]\nmaterial = \"Fagus sylvatica\"\nbark = \"bark.png\"\n");
   EXPECT_EQ(s.mode, RenderMode::kPathTraced);
