@@ -11,7 +11,7 @@ namespace sunfleck {
 namespace {
 
 constexpr int kRounds = 3;
-constexpr std::uint64_t kPoints = 512;  // of ground, wood and leaves each, per round
+constexpr std::uint64_t kPoints = 1024;  // of ground, wood and leaves each, per round
 constexpr std::uint64_t kGroundSeed = 0x67726F756E64, kWoodSeed = 0x776F6F64, kLeafSeed = 0x6C656166;
 
 // Picks an entry in proportion to its weight.
@@ -107,7 +107,8 @@ Vec3 mean_irradiance(const Shader& shader, std::uint64_t seed, const Draw& draw)
   for (std::uint64_t i = 0; i < kPoints; ++i) {
     RandomStream random(seed, i, RandomPurpose::kCamera);
     const RayHit hit = draw(random);
-    sum += shader.irradiance(hit, random);
+    PathSamples numbers(seed, i, 1, 0);
+    sum += shader.irradiance(hit, numbers);
   }
   return sum / static_cast<double>(kPoints);
 }

@@ -32,10 +32,6 @@ double onward_density(const Surface& s, double reflect_chance, const Vec3& direc
   return (cosine > 0.0 ? reflect_chance : 1.0 - reflect_chance) * std::abs(cosine) / kPi;
 }
 
-double cosine_factor(const Surface& s, const Vec3& direction) {
-  return s.is_shoot ? 1.0 : std::abs(glm::dot(s.normal, direction));
-}
-
 Vec3 any_direction(double a, double b) {
   const double z = 1.0 - 2.0 * a, across = std::sqrt(std::max(0.0, 1.0 - z * z)), turn = 2.0 * kPi * b;
   return {across * std::cos(turn), across * std::sin(turn), z};

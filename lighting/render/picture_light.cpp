@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 
 #include "lighting/trace/surface_sampler.h"
 
@@ -47,6 +48,17 @@ void PictureLight::tabulate() {
     weight[static_cast<std::size_t>(c)] = radiance;
     sum += radiance;
   }
+  if (colour_.sky_gradient > 0.0) {
+    Vec3 tinted(0.0);
+    double plain = 0.0;
+    for (int c = 0; c < kCells; ++c) {
+      const Vec3 d = cell_direction(c / kSectors + 0.5, c % kSectors + 0.5);
+      const double light = weight[static_cast<std::size_t>(c)] * d.z;
+      tinted += light * relative_tint(d);
+      plain += light;
+    }
+    tint_scale_ = plain / tinted;
+  }
   double running = 0.0;
   for (double& w : weight) {
     const double share = (1.0 - kEvenShare) * w / sum + kEvenShare / kCells;
@@ -61,7 +73,19 @@ Vec3 PictureLight::towards_sun(const Vec2& number) const {
   return trace::cone_direction(light_.to_sun, light_.sun_half_angle_rad, number.x, number.y);
 }
 
-Vec3 PictureLight::sky(const Vec3& direction) const { return sky_.radiance(direction) * diffuse_; }
+// Pale where much air or the sun's halo scatters more than once.
+Vec3 PictureLight::relative_tint(const Vec3& direction) const {
+  if (colour_.sky_gradient == 0.0) return Vec3(1.0);
+  const double low = std::pow(1.0 - std::clamp(direction.z, 0.0, 1.0), 3.0);
+  const double halo = std::exp(-4.0 * glm::length(direction - light_.to_sun));
+  const Vec3 pale = glm::mix(Vec3(1.45, 1.05, 0.78), colour_.sun_tint * Vec3(1.15, 1.05, 0.95), 0.4);
+  const Vec3 tint = glm::mix(Vec3(0.8, 0.96, 1.12), pale, std::max(0.85 * low, halo));
+  return glm::mix(Vec3(1.0), tint, colour_.sky_gradient);
+}
+
+Vec3 PictureLight::sky(const Vec3& direction) const {
+  return sky_.radiance(direction) * diffuse_ * relative_tint(direction) * tint_scale_;
+}
 
 Vec3 PictureLight::open_ground() const {
   const Vec3 beam = has_beam_ ? strength_.beam_normal_w_m2 * light_.to_sun.z * colour_.sun_tint : Vec3(0.0);

@@ -39,12 +39,14 @@ class PictureLight {
 
  private:
   void tabulate();
+  Vec3 relative_tint(const Vec3& direction) const;
 
   const Illumination& light_;
   SkyRadiance sky_;
   BandLight strength_;
   PictureColour colour_;
   Vec3 beam_{0}, diffuse_{0};
+  Vec3 tint_scale_{1};  // brings the gradient's mean to 1, weighted as level ground sees it
   bool has_beam_ = false, has_sky_ = false;
   std::vector<double> up_to_, density_;  // per cell: running share, density per steradian
 };

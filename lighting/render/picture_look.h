@@ -28,12 +28,16 @@ struct MaterialTextures {
   std::string where;                       // of this entry in its file, for messages
 };
 
+// What the ground is covered with: its colour; its albedo in the band is the scene's.
+enum class GroundCover { kLitter, kGrass };
+
 struct PictureLook {
   LeafOutline outline = LeafOutline::kBySpecies;  // of flat leaves but triangles, whose shape is their own
   bool patterns = true;                           // veins, bark, litter, made by formula
   double leaf_gloss = 0.0;       // share of a front face's reflectance that is specular, 0 .. 1
   double gloss_exponent = 20.0;  // of its lobe, 1 .. 1000
   double bark_width_m = 0.5;     // width of a bark image on the stem
+  GroundCover ground = GroundCover::kLitter;
   std::vector<MaterialTextures> textures;
 };
 

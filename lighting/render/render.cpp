@@ -15,7 +15,7 @@ namespace sunfleck {
 namespace {
 
 constexpr char kPar[] = "PAR";
-constexpr int kPathsPerUnit = 4;
+constexpr int kSamplesPerUnit = 4;
 
 void refuse_map(const std::string& problem) {
   throw_invalid("map", problem, "give the light map that was computed for this forest and these bands");
@@ -103,9 +103,26 @@ Image run(const Stage& stage, const RenderRequest& request, int samples_per_unit
 }
 
 // Units of four low-discrepancy samples; with fewer than four units of them there is no error to state.
-int paths_per_unit(const RenderRequest& request) {
-  if (request.effort.noise > 0.0) return kPathsPerUnit;
-  return std::clamp(request.camera.samples_per_pixel / 4, 1, kPathsPerUnit);
+int samples_per_unit(const RenderRequest& request) {
+  if (request.effort.noise > 0.0) return kSamplesPerUnit;
+  return std::clamp(request.camera.samples_per_pixel / 4, 1, kSamplesPerUnit);
+}
+
+// The mean of one unit of samples of what `look` sees along the camera's rays. Both ways to a picture look
+// through the same places of a pixel, at the same points of the sun's disc.
+template <class Look>
+UnitSampler unit_sampler(const Stage& stage, const RenderRequest& request, int samples, Look look) {
+  return [&stage, seed = request.camera.seed, samples, look](int x, int y, std::size_t pixel,
+                                                             std::uint32_t unit) {
+    Vec3 sum(0.0);
+    for (int s = 0; s < samples; ++s) {
+      PathSamples numbers(seed, pixel, unit, static_cast<std::uint32_t>(s));
+      const auto place = numbers.next();
+      const auto ray = stage.rays.through(x + place[0], y + place[1]);
+      if (ray) sum += look(*ray, numbers);
+    }
+    return sum / static_cast<double>(samples);
+  };
 }
 
 }  // namespace
@@ -142,14 +159,12 @@ Image render(const Forest& forest, const OpticsTable& optics, const LightMap& ma
                            stage.colour, request.leaf_sun};
   const ShadingParts grey_parts{stage.scene, index, band, grey_surfaces, grey_light, grey, request.leaf_sun};
   const Shader shader(parts, find_mean_light(parts, grey_parts));
-  const UnitSampler sample = [&](int x, int y, std::size_t pixel, std::uint32_t unit) {
-    RandomStream random(mix_seed(request.camera.seed, unit), pixel, RandomPurpose::kCamera);
-    const double dx = random.uniform(), dy = random.uniform();
-    const auto ray = stage.rays.through(x + dx, y + dy);
-    if (!ray) return Vec3(0.0);
-    return shader.radiance(stage.scene.closest_hit(ray->origin_m, ray->direction), ray->direction, random);
-  };
-  return run(stage, request, 1, sample, &map.bands.front(), index, control, tiles);
+  const int samples = samples_per_unit(request);
+  const UnitSampler sample =
+      unit_sampler(stage, request, samples, [&](const CameraRay& ray, PathSamples& numbers) {
+        return shader.radiance(stage.scene.closest_hit(ray.origin_m, ray.direction), ray.direction, numbers);
+      });
+  return run(stage, request, samples, sample, &map.bands.front(), index, control, tiles);
 }
 
 Image render_path_traced(const Forest& forest, const OpticsTable& optics, const RenderRequest& request,
@@ -160,17 +175,11 @@ Image render_path_traced(const Forest& forest, const OpticsTable& optics, const 
   const ForestIndex index(forest);
   const Stage stage(forest, optics, request, control);
   const PathTracer tracer(stage.scene, stage.surfaces, stage.sources);
-  const int paths = paths_per_unit(request);
-  const UnitSampler sample = [&](int x, int y, std::size_t pixel, std::uint32_t unit) {
-    Vec3 sum(0.0);
-    for (int s = 0; s < paths; ++s) {
-      PathSamples numbers(request.camera.seed, pixel, unit, static_cast<std::uint32_t>(s));
-      const auto place = numbers.next();
-      const auto ray = stage.rays.through(x + place[0], y + place[1]);
-      if (ray) sum += tracer.radiance(ray->origin_m, ray->direction, numbers);
-    }
-    return sum / static_cast<double>(paths);
-  };
+  const int paths = samples_per_unit(request);
+  const UnitSampler sample =
+      unit_sampler(stage, request, paths, [&](const CameraRay& ray, PathSamples& numbers) {
+        return tracer.radiance(ray.origin_m, ray.direction, numbers);
+      });
   return run(stage, request, paths, sample, nullptr, index, control, tiles);
 }
 

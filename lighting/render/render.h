@@ -49,8 +49,8 @@ struct Image {
   std::vector<float> instance_id;         // 1, instance index; -1 none
   std::vector<float> irradiance_w_m2;  // 1 per pixel: front + back irradiance of the element seen in band 0;
                                        // 0 elsewhere, and everywhere in path-traced pictures
-  int samples_per_pixel = 0;  // taken, of the pixel with fewest
-  bool stopped = false;       // before it was done, see RenderEffort
+  int samples_per_pixel = 0;           // taken, of the pixel with fewest
+  bool stopped = false;                // before it was done, see RenderEffort
 };
 // Standard error of a pixel, root mean square over the picture, relative to its mean brightness. Without the
 // brightest hundredth of the pixels, which a picture shows as white: the sun's disc would be all of it.

@@ -12,18 +12,13 @@ RayStart leaving(const RayHit& hit, bool this_side = true) {
   return {hit.kind, this_side == hit.front, hit.instance, hit.local};
 }
 
-Vec2 stratum(int i, RandomStream& random) {
-  const double x = random.uniform(), y = random.uniform();
-  return Vec2(i % kGatherSide + x, i / kGatherSide + y) / static_cast<double>(kGatherSide);
-}
-
 }  // namespace
 
-Vec3 Shader::radiance(const RayHit& hit, const Vec3& direction, RandomStream& random) const {
+Vec3 Shader::radiance(const RayHit& hit, const Vec3& direction, PathSamples& numbers) const {
   if (hit.kind == HitKind::kSky) return parts_.light.background(direction);
   if (hit.kind == HitKind::kGround && !hit.front) return Vec3(0.0);  // the dark below
-  return hit.kind == HitKind::kFoliage ? leaf_seen(hit, -direction, random)
-                                       : parts_.surfaces.at(hit).reflect / kPi * irradiance(hit, random);
+  return hit.kind == HitKind::kFoliage ? leaf_seen(hit, -direction, numbers)
+                                       : parts_.surfaces.at(hit).reflect / kPi * irradiance(hit, numbers);
 }
 
 std::size_t Shader::element_of(const RayHit& hit) const {
@@ -41,51 +36,49 @@ Vec3 Shader::total(const FaceLight& face) const {
   return static_cast<double>(face.direct_w_m2) * parts_.colour.sun_tint + diffuse(face);
 }
 
-Vec3 Shader::leaf_seen(const RayHit& hit, const Vec3& to_viewer, RandomStream& random) const {
+Vec3 Shader::leaf_seen(const RayHit& hit, const Vec3& to_viewer, PathSamples& numbers) const {
   const Surface s = parts_.surfaces.at(hit);
-  if (s.is_shoot) return shoot_stored(hit);
-  if (parts_.leaf_sun == LeafSun::kStored && s.gloss == 0.0) return leaf_stored(hit);
+  const auto sun_at = numbers.next();
+  if (parts_.leaf_sun == LeafSun::kTraced)
+    return leaf_lit(hit, [&](const FaceLight& face) { return diffuse(face); }) +
+           sun_scattered(hit, s, to_viewer, {sun_at[0], sun_at[1]});
+  if (s.gloss == 0.0 || s.is_shoot) return leaf_stored(hit);
+  // Stored sunlight with its gloss: as if it came from the middle of the disc.
   const ElementLight& light = light_of(hit);
   const FaceLight &this_side = hit.front ? light.front : light.back,
                   &other = hit.front ? light.back : light.front;
-  const Vec3 seen = (s.reflect * diffuse(this_side) + s.pass * diffuse(other)) / kPi;
-  if (parts_.leaf_sun == LeafSun::kTraced) return seen + sun_scattered(hit, s, to_viewer, random);
-  // Stored sunlight with its gloss: as if it came from the middle of the disc.
   const Vec3 to_sun = parts_.light.towards_sun({0.0, 0.0});
-  return seen + (scattering(s, to_sun, to_viewer) * static_cast<double>(this_side.direct_w_m2) +
-                 s.pass / kPi * static_cast<double>(other.direct_w_m2)) *
-                    parts_.colour.sun_tint;
+  const Vec3 sun = scattering(s, to_sun, to_viewer) * static_cast<double>(this_side.direct_w_m2) +
+                   s.pass / kPi * static_cast<double>(other.direct_w_m2);
+  return leaf_lit(hit, [&](const FaceLight& face) { return diffuse(face); }) + sun * parts_.colour.sun_tint;
 }
 
 Vec3 Shader::leaf_stored(const RayHit& hit) const {
-  const Surface s = parts_.surfaces.at(hit);
-  if (s.is_shoot) return shoot_stored(hit);
-  const ElementLight& light = light_of(hit);
-  const Vec3 front = total(light.front), back = total(light.back);
-  return (s.reflect * (hit.front ? front : back) + s.pass * (hit.front ? back : front)) / kPi;
+  return leaf_lit(hit, [&](const FaceLight& face) { return total(face); });
 }
 
-Vec3 Shader::shoot_stored(const RayHit& hit) const {
-  const ElementLight& light = light_of(hit);
+// Radiance of a leaf by what `light` takes of each face's light; of a shoot the mean of its faces.
+template <class Light>
+Vec3 Shader::leaf_lit(const RayHit& hit, const Light& light) const {
+  const Surface s = parts_.surfaces.at(hit);
+  const ElementLight& stored = light_of(hit);
+  const Vec3 mine = light(hit.front ? stored.front : stored.back);
+  const Vec3 others = light(hit.front ? stored.back : stored.front);
+  if (!s.is_shoot) return (s.reflect * mine + s.pass * others) / kPi;
   RayHit other_face = hit;
   other_face.front = !hit.front;
-  const Surface s = parts_.surfaces.at(hit), o = parts_.surfaces.at(other_face);
-  const Vec3 mine = total(hit.front ? light.front : light.back);
-  const Vec3 others = total(hit.front ? light.back : light.front);
+  const Surface o = parts_.surfaces.at(other_face);
   return ((s.reflect + o.pass) * mine + (o.reflect + s.pass) * others) / (2.0 * kPi);
 }
 
-Vec3 Shader::irradiance(const RayHit& hit, RandomStream& random) const {
-  Vec3 sum(0.0);
-  for (int i = 0; i < kGatherRays; ++i) {
-    const Vec2 number = stratum(i, random);
-    const Vec3 direction = trace::cosine_direction(hit.normal, number.x, number.y);
-    sum += gathered(parts_.scene.closest_hit(hit.on_original_m, direction, leaving(hit)), direction);
-  }
+Vec3 Shader::irradiance(const RayHit& hit, PathSamples& numbers) const {
+  const auto [sun_x, sun_y, x, y] = numbers.next();
+  const Vec3 direction = trace::cosine_direction(hit.normal, x, y);
+  const RayHit met = parts_.scene.closest_hit(hit.on_original_m, direction, leaving(hit));
   Surface white;
   white.normal = hit.normal;
   white.reflect = Vec3(1.0);
-  return kPi / kGatherRays * sum + kPi * sun_scattered(hit, white, hit.normal, random);
+  return kPi * (gathered(met, direction) + sun_scattered(hit, white, hit.normal, {sun_x, sun_y}));
 }
 
 Vec3 Shader::gathered(const RayHit& hit, const Vec3& direction) const {
@@ -99,12 +92,11 @@ Vec3 Shader::gathered(const RayHit& hit, const Vec3& direction) const {
 }
 
 Vec3 Shader::sun_scattered(const RayHit& hit, const Surface& surface, const Vec3& to_viewer,
-                           RandomStream& random) const {
+                           const Vec2& number) const {
   if (!parts_.light.has_beam()) return Vec3(0.0);
-  const double x = random.uniform(), y = random.uniform();
-  const Vec3 to_sun = parts_.light.towards_sun({x, y});
+  const Vec3 to_sun = parts_.light.towards_sun(number);
   const double cosine = glm::dot(hit.normal, to_sun);
-  const Vec3 share = scattering(surface, to_sun, to_viewer) * std::abs(cosine);
+  const Vec3 share = scattering(surface, to_sun, to_viewer) * cosine_factor(surface, to_sun);
   if (share == Vec3(0.0) || parts_.scene.occluded(hit.on_original_m, to_sun, leaving(hit, cosine > 0.0)))
     return Vec3(0.0);
   return share * parts_.light.beam_w_m2();

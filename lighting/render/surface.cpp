@@ -30,6 +30,10 @@ Vec3 scattering(const Surface& s, const Vec3& from_light, const Vec3& to_viewer)
   return s.reflect * share;
 }
 
+double cosine_factor(const Surface& s, const Vec3& direction) {
+  return s.is_shoot ? 1.0 : std::abs(glm::dot(s.normal, direction));
+}
+
 SurfaceTable::SurfaceTable(const PictureScene& scene, const OpticsTable& optics, std::size_t band,
                            const PictureColour& colour, const PictureLook& look)
     : scene_(scene), optics_(optics), band_(band), colour_(colour), look_(look) {}
@@ -85,7 +89,8 @@ Surface SurfaceTable::ground(const RayHit& hit) const {
   const double albedo = optics_.soil_albedo(band_);
   Surface s;
   s.normal = hit.normal;
-  s.reflect = albedo * channel_factor(albedo, colour_.soil_exponent);
+  const bool grass = look_.ground == GroundCover::kGrass;
+  s.reflect = albedo * channel_factor(albedo, grass ? colour_.leaf_exponent : colour_.soil_exponent);
   if (look_.patterns) s.reflect *= litter_pattern({hit.position_m.x, hit.position_m.y});
   keep_energy(s);
   return s;

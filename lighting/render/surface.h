@@ -21,8 +21,11 @@ struct Surface {
   double gloss_exponent = 20;
 };
 
-// Scattered radiance per incident radiance and solid angle times cosine, towards `to_viewer`.
+// Scattered radiance towards `to_viewer` per incident radiance, solid angle and cosine_factor.
 Vec3 scattering(const Surface& surface, const Vec3& from_light, const Vec3& to_viewer);
+
+// |cosine| to the normal; 1 for a shoot.
+double cosine_factor(const Surface& surface, const Vec3& direction);
 
 class SurfaceTable {
  public:

@@ -31,6 +31,7 @@ void run_light(const LightOptions& options, const RunControl& control);
 
 struct RenderOptions {
   std::filesystem::path forest, scene, light_map, png, exr;
+  std::string mode;  // empty: as the scene file says
 };
 void run_render(const RenderOptions& options, const RunControl& control);
 

@@ -51,14 +51,18 @@ void add_light(CLI::App& app, LightOptions& o) {
 void add_render(CLI::App& app, RenderOptions& o) {
   CLI::App* c = app.add_subcommand("render", "Make an image of a lit forest");
   c->add_option("forest", o.forest, "Forest (.vdb)")->required();
-  c->add_option("--light-map", o.light_map, "Light map of that forest (.nc)")->required();
+  c->add_option("--light-map", o.light_map, "Light map of that forest (.nc); path-traced pictures need none");
   c->add_option("--scene", o.scene, "Scene file (TOML) with [light] and, if wanted, [camera]")->required();
+  c->add_option("--mode", o.mode, "light_map or path_traced; left out: as the scene file's [render] says");
   c->add_option("--png", o.png, "Picture to write (.png, sRGB)");
-  c->add_option("--exr", o.exr, "Layers to write (.exr: RGB, depth, normal, instance id, irradiance)");
+  c->add_option("--exr", o.exr,
+                "Layers to write (.exr: RGB, depth, normal, instance id, irradiance, standard error)");
   c->footer(
       "Examples:\n  sunfleck render stand.vdb --light-map light.nc --scene configs/scenes/mixed_stand.toml "
       "--png a.png\n"
-      "  sunfleck render stand.vdb --light-map light.nc --scene scene.toml --exr layers.exr");
+      "  sunfleck render stand.vdb --light-map light.nc --scene scene.toml --exr layers.exr\n"
+      "  sunfleck render stand.vdb --scene scene.toml --mode path_traced --png traced.png\n"
+      "Ctrl-C keeps what a path-traced picture has so far.");
 }
 
 }  // namespace sunfleck

@@ -1,10 +1,11 @@
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <vector>
 
 #include "lighting/map/light_map_file.h"
 #include "lighting/render/camera_config.h"
-#include "lighting/render/render.h"
+#include "lighting/render/render_config.h"
 #include "server/apps/commands.h"
 #include "server/apps/outputs.h"
 #include "server/apps/scene_file.h"
@@ -42,26 +43,52 @@ void check_belongs(const LightMap& map, const Forest& forest, const LightRequest
 
 }  // namespace
 
+namespace {
+
+Image make_image(const RenderOptions& o, const SceneFile& scene, const Forest& forest, RenderMode mode,
+                 const RenderRequest& request, const RunControl& control) {
+  const OpticsTable optics(forest, scene.light->optics);
+  if (mode == RenderMode::kPathTraced) return render_path_traced(forest, optics, request, control);
+  if (o.light_map.empty())
+    throw_invalid("--light-map", "is missing", "the light map of this forest, or --mode path_traced");
+  const LightMap map = load_netcdf(o.light_map);
+  check_belongs(map, forest, *scene.light, o.light_map.string());
+  return render(forest, optics, map, request, control);
+}
+
+void print_summary(const Image& image, RenderMode mode, double wall_s) {
+  std::printf("image        %d x %d pixels, %s, %d samples each, %.1f s\n", image.width_px, image.height_px,
+              mode == RenderMode::kPathTraced ? "path-traced" : "from the light map", image.samples_per_pixel,
+              wall_s);
+  std::printf(
+      "noise        %.2f %% of the picture's mean brightness (RMS of its pixels); median pixel %.1f %% "
+      "of its own\n",
+      100 * image_noise(image), 100 * median_noise(image));
+}
+
+}  // namespace
+
 void run_render(const RenderOptions& o, const RunControl& control) {
   check_outputs("render", {{"--png", o.png, ".png"}, {"--exr", o.exr, ".exr"}});
   const SceneFile scene = read_scene_file(o.scene);
   if (!scene.light) throw_invalid(o.scene.string(), "has no [light] table", "the sun and sky of the picture");
   const Forest forest = load_forest(o.forest);
-  const LightMap map = load_netcdf(o.light_map);
-  check_belongs(map, forest, *scene.light, o.light_map.string());
-  const OpticsTable optics(forest, scene.light->optics);
+  RenderSettings settings = scene.render.value_or(RenderSettings{});
+  if (!o.mode.empty()) settings.mode = render_mode_named(o.mode, "--mode");
+  settings.effort.keep_when_stopped = settings.mode == RenderMode::kPathTraced;
   const RenderRequest request{scene.camera ? *scene.camera : default_camera(forest_bounds(forest)),
-                              checked(scene.light->light, optics.band_count())};
-  const Image image = render(forest, optics, map, request, control);
-  if (!o.png.empty()) save_png(image, o.png);
+                              checked(scene.light->light, scene.light->optics.bands.size()), settings.look,
+                              settings.effort, settings.leaf_sun};
+  const auto began = std::chrono::steady_clock::now();
+  const Image image = make_image(o, scene, forest, settings.mode, request, control);
+  const std::chrono::duration<double> wall_s = std::chrono::steady_clock::now() - began;
+  if (!o.png.empty()) save_png(image, o.png, settings.tone);
   if (!o.exr.empty()) save_exr(image, o.exr);
   finish_progress();
-  std::printf(
-      "image        %d x %d pixels, %d samples each; standard error of a pixel %.1f %% of its brightness "
-      "(median)\n",
-      image.width_px, image.height_px, request.camera.samples_per_pixel, 100 * median_noise(image));
+  print_summary(image, settings.mode, wall_s.count());
   for (const auto& path : {o.png, o.exr})
     if (!path.empty()) std::printf("wrote        %s\n", path.c_str());
+  if (image.stopped) throw_cancelled();
 }
 
 }  // namespace sunfleck

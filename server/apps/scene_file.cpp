@@ -17,6 +17,7 @@ SceneFile read_scene_file(const fs::path& path) {
   if (const auto table = root.table_if("light")) scene.light = read_light_request(*table);
   if (const auto table = root.table_if("stand_light")) scene.stand_light = read_stand_study(*table);
   if (const auto table = root.table_if("camera")) scene.camera = read_camera(*table);
+  if (const auto table = root.table_if("render")) scene.render = read_render_settings(*table);
   root.reject_unread();
   return scene;
 }

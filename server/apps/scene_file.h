@@ -1,11 +1,11 @@
-// A scene file: [forest], [light], [stand_light] and [camera] in one TOML.
+// A scene file: [forest], [light], [stand_light], [camera] and [render] in one TOML.
 #pragma once
 
 #include <filesystem>
 #include <optional>
 
 #include "lighting/plan/light_request.h"
-#include "lighting/render/render.h"
+#include "lighting/render/render_config.h"
 #include "lighting/study/stand_study.h"
 #include "sim/forest/forest_spec.h"
 
@@ -16,6 +16,7 @@ struct SceneFile {
   std::optional<LightRequest> light;
   std::optional<StandStudySpec> stand_light;
   std::optional<Camera> camera;
+  std::optional<RenderSettings> render;
 };
 
 // Reads all tables that are there and refuses every key that nobody knows.

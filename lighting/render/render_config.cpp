@@ -1,0 +1,70 @@
+#include "lighting/render/render_config.h"
+
+#include "sim/base/error.h"
+
+namespace sunfleck {
+namespace {
+
+std::filesystem::path read_path(const ConfigTable& table, const char* key) {
+  const std::string text = table.text_or(key, "");
+  return text.empty() ? std::filesystem::path{} : table.directory() / text;
+}
+
+MaterialTextures read_textures(const ConfigTable& table) {
+  MaterialTextures t;
+  t.material = table.text_or("material", "*");
+  t.leaf_alpha = read_path(table, "leaf_alpha");
+  t.leaf_reflectance = read_path(table, "leaf_reflectance");
+  t.leaf_thickness = read_path(table, "leaf_thickness");
+  t.leaf_normal = read_path(table, "leaf_normal");
+  t.bark = read_path(table, "bark");
+  t.where = table.where("material");
+  const std::size_t last = t.where.rfind(".material");
+  if (last != std::string::npos) t.where.erase(last);
+  return t;
+}
+
+LeafOutline read_outline(const ConfigTable& table) {
+  const std::string word = table.choice_or("leaf_outline", "by_species",
+                                           {"by_species", "as_modelled", "ovate", "lobed", "needle"});
+  for (const LeafOutline o :
+       {LeafOutline::kAsModelled, LeafOutline::kOvate, LeafOutline::kLobed, LeafOutline::kNeedle})
+    if (word == to_string(o)) return o;
+  return LeafOutline::kBySpecies;
+}
+
+}  // namespace
+
+std::string to_string(RenderMode mode) {
+  return mode == RenderMode::kPathTraced ? "path_traced" : "light_map";
+}
+
+RenderMode render_mode_named(const std::string& word, const std::string& where) {
+  for (const RenderMode mode : {RenderMode::kLightMap, RenderMode::kPathTraced})
+    if (word == to_string(mode)) return mode;
+  throw_invalid(where, "is '" + word + "'", "light_map or path_traced");
+}
+
+RenderSettings read_render_settings(const ConfigTable& table) {
+  RenderSettings s;
+  s.mode = render_mode_named(table.text_or("mode", "light_map"), table.where("mode"));
+  s.effort.noise = table.number_or("noise", 0.0, {0.0, 1.0});
+  s.effort.max_samples_per_pixel =
+      static_cast<int>(table.integer_or("max_samples_per_pixel", 4096, {1, 1 << 20}));
+  s.leaf_sun = table.choice_or("leaf_sun", "traced", {"traced", "stored"}) == "stored" ? LeafSun::kStored
+                                                                                       : LeafSun::kTraced;
+  s.look.outline = read_outline(table);
+  s.look.patterns = table.boolean_or("patterns", true);
+  s.look.ground = table.choice_or("ground", "litter", {"litter", "grass"}) == "grass" ? GroundCover::kGrass
+                                                                                      : GroundCover::kLitter;
+  s.look.leaf_gloss = table.number_or("leaf_gloss", 0.0, {0.0, 1.0});
+  s.look.gloss_exponent = table.number_or("gloss_exponent", 20.0, {1.0, 1000.0});
+  s.look.bark_width_m = table.number_or("bark_width_m", 0.5, {1e-3, 100.0});
+  for (const ConfigTable& t : table.tables("textures")) s.look.textures.push_back(read_textures(t));
+  s.tone.curve = table.choice_or("tone", "linear", {"linear", "filmic"}) == "filmic" ? ToneCurve::kFilmic
+                                                                                     : ToneCurve::kLinear;
+  s.tone.exposure_stops = table.number_or("exposure_stops", 0.0, {-20.0, 20.0});
+  return s;
+}
+
+}  // namespace sunfleck

@@ -1,0 +1,29 @@
+// The [render] table of a scene file.
+#pragma once
+
+#include "lighting/render/render.h"
+#include "sim/config/config_table.h"
+
+namespace sunfleck {
+
+enum class RenderMode { kLightMap, kPathTraced };
+std::string to_string(RenderMode mode);  // "light_map", "path_traced"
+// Throws Error(kInvalidInput) at `where` for another word.
+RenderMode render_mode_named(const std::string& word, const std::string& where);
+
+struct RenderSettings {
+  RenderMode mode = RenderMode::kLightMap;
+  PictureLook look;
+  RenderEffort effort;
+  LeafSun leaf_sun = LeafSun::kTraced;
+  ToneMap tone;
+};
+
+// Keys: mode ("light_map", "path_traced"), noise, max_samples_per_pixel, leaf_sun ("traced", "stored"),
+// leaf_outline ("by_species", "as_modelled", "ovate", "lobed", "needle"), patterns, leaf_gloss,
+// ground ("litter", "grass"), gloss_exponent, bark_width_m, tone ("linear", "filmic"), exposure_stops, and
+// [[render.textures]]: material, leaf_alpha, leaf_reflectance, leaf_thickness, leaf_normal, bark (image
+// files, relative to the scene file). Others are refused.
+RenderSettings read_render_settings(const ConfigTable& table);
+
+}  // namespace sunfleck
