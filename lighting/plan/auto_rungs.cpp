@@ -22,7 +22,7 @@ constexpr double kLocal = 0.02;
 constexpr double kErrorOf16Links = 0.10, kLinksExponent = 0.35, kErrorOfOneRay = 0.75;
 // Rungs predicted to miss the aim by more are not tried, nor any that is predicted to miss it once a grid's
 // true error has mended the predictions.
-constexpr double kMostMargin = 1.1;
+constexpr double kMostMargin = 1.1, kEvenChance = 0.9;
 
 double of_directions(int directions) { return directions >= 26 ? 0.0 : directions >= 14 ? 0.12 : 0.24; }
 
@@ -189,9 +189,10 @@ int best_rung(const std::vector<Rung>& rungs, double aim, double worse) {
     const bool grid = rungs[i].kind == RungKind::kGrid || rungs[i].kind == RungKind::kDrawnGrid;
     const double error = rungs[i].predicted_error * (grid ? worse : 1.0);
     if (error > (grid && worse != 1.0 ? 1.0 : kMostMargin) * aim) continue;
-    // Predictions are off by about a tenth: a miss has a chance of 1/2 at the aim, of 1/9 a tenth below. It
+    // Predictions are off by about a tenth: a miss has a chance of 1/2 a tenth below the
+    // aim (what the probes say is uncertain too), of 1/9 two tenths below. It
     // costs more than twice as much again.
-    const double miss = 1.0 / (1.0 + std::pow(aim / std::max(error, 1e-9), 20.0));
+    const double miss = 1.0 / (1.0 + std::pow(kEvenChance * aim / std::max(error, 1e-9), 20.0));
     const double expected_s = rungs[i].predicted_s * (1.0 + 2.5 * miss);
     if (expected_s < least) least = expected_s, best = static_cast<int>(i);
   }
