@@ -126,7 +126,8 @@ EnvelopeSectors prepare_envelope_sectors(const Forest& forest, const EnvelopeOpt
     const StageTimer timer(provenance, "sector depths");
     sectors = march_sectors(*field, control);
   }
-  prepared.depths = std::make_shared<const PublishedDepths>(PublishedDepths{std::move(*field), std::move(sectors)});
+  prepared.depths =
+      std::make_shared<const PublishedDepths>(PublishedDepths{std::move(*field), std::move(sectors)});
   prepared.times = std::move(provenance.times);
   return prepared;
 }

@@ -25,10 +25,11 @@ Interval Resamples::interval(const std::function<Figure(std::span<const std::uin
   }
   std::sort(t.begin(), t.end());
   // 2 % on each side: drawn from two hundred skewed values, tails of 2.5 % were found to miss six times in a
-  // hundred rather than five.
-  constexpr std::size_t kTail = (kRepeats + 1) / 50;
-  return {original.value, original.value - t[kRepeats - kTail] * original.standard_error,
-          original.value - t[kTail - 1] * original.standard_error};
+  // hundred rather than five; of a few dozen (groups) again more.
+  constexpr std::size_t kFew = 40;
+  const std::size_t tail = probes_ < kFew ? (kRepeats + 1) / 80 : (kRepeats + 1) / 50;
+  return {original.value, original.value - t[kRepeats - tail] * original.standard_error,
+          original.value - t[tail - 1] * original.standard_error};
 }
 
 }  // namespace sunfleck

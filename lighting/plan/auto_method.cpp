@@ -49,7 +49,7 @@ LightMap answer_by_tolerance(AutoRun& run, const ProbePlan& plan, const RunContr
     if (attempt_if_it_fits(run, rung, tolerable, control)) {
       if (tolerable) return run.answer();
       if (of_elements && rung.kind == RungKind::kDrawnGrid)
-        worse = std::max(worse, run.last_error() / rung.predicted_error);
+        worse = std::max(worse, 1e-9 + run.last_error() / rung.predicted_error);
     }
     drop(rungs, rung, of_elements);
   }
@@ -74,7 +74,6 @@ ProbePlan usual_plan(const AutoOptions& options, const SceneSizes& sizes, std::s
   const double affordable_s = kShareOfCost * (grid_s(sizes, grid, bands) + sun_drawing_s(sizes, kUsualPixel));
   ProbePlan plan;
   plan.paths_per_face = static_cast<int>(std::clamp(32.0 * std::pow(0.1 / options.aim(), 2.0), 32.0, 64.0));
-  plan.sun_rays = 64;
   const double more = affordable_s / probes_s(plan, bands, false);
   plan.count = static_cast<int>(std::clamp<double>(plan.count * more, kFewest, kMost));
   return plan;

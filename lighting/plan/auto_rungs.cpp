@@ -20,7 +20,9 @@ constexpr double kEvenPart = 0.65, kClumped = 1.3;  // even leaves: that part of
 constexpr double kLocal = 0.02;
 // Of diffuse light by links, relative to its mean; and the reference's error of all light at one ray.
 constexpr double kErrorOf16Links = 0.10, kLinksExponent = 0.35, kErrorOfOneRay = 0.75;
-constexpr double kMostMargin = 1.25;  // rungs predicted to miss the aim by more are not tried
+// Rungs predicted to miss the aim by more are not tried, nor any that is predicted to miss it once a grid's
+// true error has mended the predictions.
+constexpr double kMostMargin = 1.1, kEvenChance = 0.9;
 
 double of_directions(int directions) { return directions >= 26 ? 0.0 : directions >= 14 ? 0.12 : 0.24; }
 
@@ -49,7 +51,7 @@ std::vector<GridOptions> grids(const SceneSizes& s, const GridOptions& asked, do
   if (has_own_knobs(asked)) return {asked};
   std::vector<GridOptions> all;
   for (const auto& [directions, sides] :
-       {std::pair{8, 8.0}, {8, 4.0}, {14, 4.0}, {14, 3.0}, {26, 3.0}, {26, 2.0}}) {
+       {std::pair{8, 8.0}, {8, 4.0}, {14, 4.0}, {14, 3.0}, {14, 2.0}, {26, 3.0}, {26, 2.0}}) {
     GridOptions o = asked;
     o.directions = directions;
     o.cell_m = sides * s.leaf_side_m;
@@ -186,10 +188,11 @@ int best_rung(const std::vector<Rung>& rungs, double aim, double worse) {
   for (std::size_t i = 0; i < rungs.size(); ++i) {
     const bool grid = rungs[i].kind == RungKind::kGrid || rungs[i].kind == RungKind::kDrawnGrid;
     const double error = rungs[i].predicted_error * (grid ? worse : 1.0);
-    if (error > kMostMargin * aim) continue;
-    // Predictions are off by about a tenth: a miss has a chance of 1/2 at the aim, of 1/20 a fifth below. It
-    // costs about as much again and half.
-    const double miss = 1.0 / (1.0 + std::pow(aim / std::max(error, 1e-9), 14.0));
+    if (error > (grid && worse != 1.0 ? 1.0 : kMostMargin) * aim) continue;
+    // Predictions are off by about a tenth: a miss has a chance of 1/2 a tenth below the
+    // aim (what the probes say is uncertain too), of 1/9 two tenths below. It
+    // costs more than twice as much again.
+    const double miss = 1.0 / (1.0 + std::pow(kEvenChance * aim / std::max(error, 1e-9), 20.0));
     const double expected_s = rungs[i].predicted_s * (1.0 + 2.5 * miss);
     if (expected_s < least) least = expected_s, best = static_cast<int>(i);
   }

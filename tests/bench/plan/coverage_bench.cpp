@@ -12,7 +12,7 @@ int main(int count, char** words) {
   using namespace sunfleck::test;
   const int seeds = count > 1 ? std::stoi(words[1]) : 100;
   const auto percent = [](int inside, int of) { return 100.0 * inside / of; };
-  const ProbePlan few{.count = 256, .paths_per_face = 16, .sun_rays = 64};
+  const ProbePlan few{.count = 200, .paths_per_face = 32, .sun_rays = 128};
   Coverage usual, fewer;
   int groups_inside = 0, group_bars = 0;
   for (const Forest& forest : scenes_for_error_bars()) {

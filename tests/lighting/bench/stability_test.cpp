@@ -65,9 +65,8 @@ TEST_P(StressScenes, GiveFiniteLightOrAClearRefusal) {
     EXPECT_EQ(row.negative, 0u) << row.scene;
     EXPECT_EQ(row.violation, "") << row.scene;
     EXPECT_EQ(row.refused.empty(), !row.should_be_refused) << row.scene << ": " << row.refused;
-    EXPECT_TRUE(row.as_expected())
-        << row.scene << ": " << row.figure << " " << row.found << ", expected " << row.expected
-        << ", difference " << row.difference;
+    EXPECT_TRUE(row.as_expected()) << row.scene << ": " << row.figure << " " << row.found << ", expected "
+                                   << row.expected << ", difference " << row.difference;
     refused += row.should_be_refused;
     compared += row.has_expectation;
   }
