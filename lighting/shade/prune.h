@@ -1,6 +1,7 @@
 // Fewer, larger leaves for far trees: a random share of the foliage is kept and enlarged so that its area
-// stays the same. What pays on a ray tracer where billboards do not: 2 to 4 times less time per ray on trees
-// of 16 pixels and less, at a bias of .015 in radiance (on a scale 0 to 1).
+// stays the same. Measured within its rule (primary and shadow ray, leaf reflectance .45): 1.8 times less
+// time per sample on a tree of 100,000 leaves at 8 pixels; 2.9 and 2.3 times on 400,000 leaves at 8 and 16
+// pixels; RMS of radiance .015, bias of the mean below .002.
 //
 // Which leaves stay is drawn leaf by leaf from (seed, index) alone, so the leaves kept at a share f/4 are
 // among those kept at f: levels blend without popping. Enlarged leaves keep centre, orientation and shape; a

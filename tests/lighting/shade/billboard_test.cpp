@@ -189,7 +189,9 @@ double rms(const Picture& a, const Picture& b) {
 
 const Vec3 kSun = glm::normalize(Vec3(0.3, -0.4, 1.0));
 // Two-sided leaves of reflectance .45, in units of a white surface facing the sun.
-double lambert(std::uint32_t leaf) { return 0.45 * std::abs(glm::dot(element_normal(tree().foliage[leaf]), kSun)); }
+double lambert(std::uint32_t leaf) {
+  return 0.45 * std::abs(glm::dot(element_normal(tree().foliage[leaf]), kSun));
+}
 
 // Noise-corrected RMS of radiance (background .5) where a leaf is half a pixel wide. The sheet proposes .02.
 TEST(Billboards, LightOfTheTreeFromAfar) {
