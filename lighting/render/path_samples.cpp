@@ -18,7 +18,8 @@ PathSamples::PathSamples(std::uint64_t seed, std::uint64_t pixel, std::uint32_t 
 std::array<double, 4> PathSamples::next() {
   if (group_ < kEvenGroups) {
     const std::uint64_t key = mix_seed(key_, ++group_);
-    return trace::scrambled_point(key, shuffled(sample_, static_cast<std::uint32_t>(key >> 32)));
+    const auto point = trace::ScrambledPoints(key)(shuffled(sample_, static_cast<std::uint32_t>(key >> 32)));
+    return {point[0], point[1], point[2], point[3]};
   }
   return {random_.uniform(), random_.uniform(), random_.uniform(), random_.uniform()};
 }
