@@ -90,7 +90,9 @@ Surface SurfaceTable::ground(const RayHit& hit) const {
   Surface s;
   s.normal = hit.normal;
   const bool grass = look_.ground == GroundCover::kGrass;
-  s.reflect = albedo * channel_factor(albedo, grass ? colour_.leaf_exponent : colour_.soil_exponent);
+  // Grass shows soil and dry blades between the green ones.
+  const Vec3 exponent = grass ? 0.5 * (colour_.leaf_exponent + colour_.soil_exponent) : colour_.soil_exponent;
+  s.reflect = albedo * channel_factor(albedo, exponent);
   if (look_.patterns) s.reflect *= litter_pattern({hit.position_m.x, hit.position_m.y});
   keep_energy(s);
   return s;
