@@ -64,44 +64,41 @@ struct Row {
 }
 
 // spp_h() with its constants.
-template <class Real>
 struct HemisphereRow {
-  SppHWaves<Real> waves;
-  Real ground, per_cosine;
-  Real beside;          // |1 - decay|, at least 1e-12: resonance needs no case
+  SppHWaves<double> waves;
+  double ground, per_cosine;
+  double beside;        // |1 - decay|, at least 1e-12: resonance needs no case
   bool beam_is_faster;  // decay < 1
 };
 
-template <class Real>
-[[gnu::always_inline]] inline void spp_h_loop(const Row& row, const HemisphereRow<Real>& h) {
+[[gnu::always_inline]] inline void spp_h_loop(const Row& row, const HemisphereRow& h) {
   const float* __restrict before = row.before, * __restrict behind = row.behind;
   float* __restrict down = row.down, * __restrict up = row.up;
-  const SppHWaves<Real> w = h.waves;
-  const Real r = w.deep_albedo, ground = h.ground, per_cosine = h.per_cosine, beside = h.beside,
-             per_beside = Real(1) / beside, per_sum = Real(1) / (Real(1) + w.decay);
-  const Real wave_share = h.beam_is_faster ? 1 : 0, beam_share = Real(1) - wave_share;
+  const SppHWaves<double> w = h.waves;
+  const double r = w.deep_albedo, per_beside = 1.0 / h.beside, per_sum = 1.0 / (1.0 + w.decay);
+  const double wave_share = h.beam_is_faster ? 1.0 : 0.0, beam_share = 1.0 - wave_share;
   for (std::size_t i = 0; i < row.count; ++i) {
-    const Real tau = deep(before[i]), x = deep(behind[i]);
+    const double tau = deep(before[i]), x = deep(behind[i]);
     const auto wave_t = exp_pair(w.decay * tau), wave_x = exp_pair(w.decay * x);
     const auto beam_t = exp_pair(tau), beam_x = exp_pair(x);
-    const auto beside_t = exp_pair(beside * tau), beside_x = exp_pair(beside * x);
-    const Real across = wave_t.falling * wave_x.falling, beam_across = beam_t.falling * beam_x.falling;
-    const Real loss_1 = wave_t.risen + wave_t.falling * wave_x.risen;
-    const Real beam_loss = beam_t.risen + beam_t.falling * beam_x.risen;
-    const Real slow_t = wave_share * wave_t.falling + beam_share * beam_t.falling;
-    const Real slow = wave_share * across + beam_share * beam_across;
-    const Real fed_with_t = slow_t * beside_t.risen * per_beside;
-    const Real fed_with = slow * (beside_t.risen + beside_t.falling * beside_x.risen) * per_beside;
-    const Real fed_against_x = (wave_x.risen + wave_x.falling * beam_x.risen) * per_sum;
-    const Real fed_p = w.feed_p * fed_with, fed_q = w.feed_q * (loss_1 + across * beam_loss) * per_sum;
-    const Real determinant = w.one_minus_r * (Real(1) + r) + r * (r - ground) * loss_1 * (Real(1) + across);
-    const Real q_ground =
-        ((ground - r) * (fed_p - r * across * fed_q) + ground * beam_across * per_cosine) / determinant;
-    const Real p = -wave_t.falling * r * (across * q_ground + fed_q) + w.feed_p * fed_with_t;
-    const Real q = wave_x.falling * q_ground + w.feed_q * beam_t.falling * fed_against_x;
-    const Real d = p + r * q, u = r * p + q;
-    down[i] = static_cast<float>(d > Real(0) ? d : Real(0));
-    up[i] = static_cast<float>(u > Real(0) ? u : Real(0));
+    const auto beside_t = exp_pair(h.beside * tau), beside_x = exp_pair(h.beside * x);
+    const double across = wave_t.falling * wave_x.falling, beam_across = beam_t.falling * beam_x.falling;
+    const double loss_1 = wave_t.risen + wave_t.falling * wave_x.risen;
+    const double beam_loss = beam_t.risen + beam_t.falling * beam_x.risen;
+    const double slow_t = wave_share * wave_t.falling + beam_share * beam_t.falling;
+    const double slow = wave_share * across + beam_share * beam_across;
+    const double fed_with_t = slow_t * beside_t.risen * per_beside;
+    const double fed_with = slow * (beside_t.risen + beside_t.falling * beside_x.risen) * per_beside;
+    const double fed_against_x = (wave_x.risen + wave_x.falling * beam_x.risen) * per_sum;
+    const double fed_p = w.feed_p * fed_with, fed_q = w.feed_q * (loss_1 + across * beam_loss) * per_sum;
+    const double determinant = w.one_minus_r * (1.0 + r) + r * (r - h.ground) * loss_1 * (1.0 + across);
+    const double q_ground =
+        ((h.ground - r) * (fed_p - r * across * fed_q) + h.ground * beam_across * h.per_cosine) / determinant;
+    const double p = -wave_t.falling * r * (across * q_ground + fed_q) + w.feed_p * fed_with_t;
+    const double q = wave_x.falling * q_ground + w.feed_q * beam_t.falling * fed_against_x;
+    const double d = p + r * q, u = r * p + q;
+    down[i] = static_cast<float>(d > 0.0 ? d : 0.0);
+    up[i] = static_cast<float>(u > 0.0 ? u : 0.0);
   }
 }
 
@@ -135,20 +132,8 @@ struct ShortfallRow {
 
 SUNFLECK_AVX512 void spp_avx512(const Row& row, const SppRowMedium& medium) { spp_loop(row, medium); }
 void spp_plain(const Row& row, const SppRowMedium& medium) { spp_loop(row, medium); }
-SUNFLECK_AVX512 void spp_h_avx512(const Row& row, const HemisphereRow<double>& h) { spp_h_loop(row, h); }
-SUNFLECK_AVX512 void spp_h_avx512(const Row& row, const HemisphereRow<float>& h) { spp_h_loop(row, h); }
-void spp_h_plain(const Row& row, const HemisphereRow<double>& h) { spp_h_loop(row, h); }
-void spp_h_plain(const Row& row, const HemisphereRow<float>& h) { spp_h_loop(row, h); }
-
-HemisphereRow<float> in_floats(const HemisphereRow<double>& h) {
-  const auto f = [](double v) { return static_cast<float>(v); };
-  const SppHWaves<double>& w = h.waves;
-  return {{f(w.decay), f(w.deep_albedo), f(w.one_minus_r), f(w.feed_p), f(w.feed_q)},
-          f(h.ground),
-          f(h.per_cosine),
-          f(h.beside),
-          h.beam_is_faster};
-}
+SUNFLECK_AVX512 void spp_h_avx512(const Row& row, const HemisphereRow& h) { spp_h_loop(row, h); }
+void spp_h_plain(const Row& row, const HemisphereRow& h) { spp_h_loop(row, h); }
 SUNFLECK_AVX512 void shortfall_avx512(const float* slab, const float* boundary, std::size_t count,
                                       const ShortfallRow& s, float* sum) {
   shortfall_loop(slab, boundary, count, s, sum);
@@ -195,12 +180,10 @@ void spp_h_row(std::span<const float> before, std::span<const float> behind, con
                std::span<float> down, std::span<float> up, RowCode code) {
   SUNFLECK_EXPECTS(medium.diffuse_cosine > 0.0);
   const Row row = checked_row(before, behind, down, up);
-  HemisphereRow<double> h{spp_h_waves(medium), medium.ground_albedo, 1.0 / medium.diffuse_cosine, 0.0, false};
+  HemisphereRow h{spp_h_waves(medium), medium.ground_albedo, 1.0 / medium.diffuse_cosine, 0.0, false};
   h.beam_is_faster = h.waves.decay < 1.0;
   h.beside = std::max(std::abs(1.0 - h.waves.decay), 1e-12);
-  const bool wide = use_avx512(code);
-  if (h.waves.one_minus_r < kLeastLossForFloats) return wide ? spp_h_avx512(row, h) : spp_h_plain(row, h);
-  wide ? spp_h_avx512(row, in_floats(h)) : spp_h_plain(row, in_floats(h));
+  use_avx512(code) ? spp_h_avx512(row, h) : spp_h_plain(row, h);
 }
 
 void add_shortfall_row(std::span<const float> before, std::span<const float> behind,

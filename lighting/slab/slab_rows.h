@@ -35,11 +35,8 @@ enum class RowCode { kBest, kPlainCode };
 void spp_row(std::span<const float> before, std::span<const float> behind, const SppRowMedium& medium,
              std::span<float> down, std::span<float> up, RowCode code = RowCode::kBest);
 
-// The same for spp_h(). Waves grow large against the light they add up to as leaves absorb less: media of
-// one_minus_r from kLeastLossForFloats on are computed in float (error against spp_h() below 5e-6 of down + up
-// plus 1e-6 of min(1, thickness)), others in double (2e-7 of down + up, rounding to float, while absorption is
-// above 1e-10).
-inline constexpr double kLeastLossForFloats = 0.2;
+// The same for spp_h(), computed in double. Error against spp_h() below 2e-7 of down + up (rounding to float)
+// while absorption is above 1e-10.
 void spp_h_row(std::span<const float> before, std::span<const float> behind, const HemisphereMedium& medium,
                std::span<float> down, std::span<float> up, RowCode code = RowCode::kBest);
 

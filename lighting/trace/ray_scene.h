@@ -45,7 +45,7 @@ class RayScene {
  public:
   struct Options {
     bool ground = true;  // false: nothing below, rays down go to "sky"
-    int max_wraps = 1000;
+    int max_wraps = 10'000;
     // How many rays will be cast, about. Where they are many against the trees' figures, all trees are
     // written out into one structure, which takes longer to build, about 250 bytes per figure, and a half to
     // a tenth of the time per ray where crowns interlock.

@@ -20,7 +20,7 @@ struct Surroundings {
   double rounding_m = 0;  // distances below this are noise of the coordinates
   bool periodic = false;
   Vec2 cell_lo{0}, cell_size{0};
-  int max_wraps = 1000;
+  int max_wraps = 10'000;
 
   double height_above_ground(const Vec3& p) const {
     return p.z - ground_at_centre_m - ground_rise.x * p.x - ground_rise.y * p.y;

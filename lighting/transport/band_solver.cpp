@@ -18,9 +18,6 @@ constexpr double kSlowest = 0.9995;
 // The prediction's error is some times its last change.
 constexpr double kChangePerError = 0.25;
 
-// After one bounce the rest of the series is known to about this part of it.
-constexpr double kRestError = 0.25;
-
 // Of the ground over its map.
 struct GroundOrders {
   std::vector<float> last, total;
@@ -40,8 +37,7 @@ class PowerSeries {
     const double ratio = last_ / before_;
     return ratio / (1.0 - ratio);
   }
-  double tail() const { return tail_factor() * last_; }
-  double prediction() const { return sum_ + tail(); }
+  double prediction() const { return sum_ + tail_factor() * last_; }
   bool is_nothing() const { return !(last_ > 0.0); }
 
  private:
@@ -64,8 +60,7 @@ class BandSolver {
       next_order();
       const double before = std::exchange(predicted, series_.prediction());
       const bool steady = std::abs(predicted - before) <= kChangePerError * convergence.relative * predicted;
-      const bool little_left = kRestError * series_.tail() <= convergence.relative * predicted;
-      solution_.converged = series_.is_nothing() || little_left || (solution_.iterations >= 2 && steady);
+      solution_.converged = series_.is_nothing() || (solution_.iterations >= 2 && steady);
     }
     sweep_total();
     return std::move(solution_);

@@ -90,13 +90,11 @@ TEST_P(Rows, OfSppHFollowTheClosedForm) {
         random.share(), random.with_ends(), k % 7 == 0 ? 1.0 : 0.1 + 1.9 * random.share()};
     std::vector<float> down(kPoints), up(kPoints);
     spp_h_row(before, behind, medium, down, up, GetParam());
-    const bool in_floats = spp_h_waves(medium).one_minus_r >= kLeastLossForFloats;
     for (std::size_t i = 0; i < kPoints; ++i) {
       const auto light = spp_h(before[i], behind[i], medium);
       // Rounding of either form in thin slabs, where they scatter no light this way in first order.
-      const double thin = std::min(1.0, static_cast<double>(before[i]) + behind[i]);
-      const double allowed = in_floats ? 5e-6 * (light.down + light.up) + 1e-6 * thin
-                                       : 2e-7 * (light.down + light.up) + 1e-14 * thin;
+      const double rounding = 1e-14 * std::min(1.0, static_cast<double>(before[i]) + behind[i]);
+      const double allowed = 2e-7 * (light.down + light.up) + rounding;
       ASSERT_NEAR(down[i], light.down, allowed) << before[i] << " " << behind[i] << " " << medium.absorption;
       ASSERT_NEAR(up[i], light.up, allowed) << before[i] << " " << behind[i] << " " << medium.absorption;
     }

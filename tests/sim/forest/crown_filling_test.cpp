@@ -87,7 +87,7 @@ ForestSpec two_trees() {
   for (int i = 0; i < 2; ++i) {
     InventoryTree tree;
     tree.id = {static_cast<std::uint32_t>(i + 1)};
-    tree.species = i == 0 ? "beech" : "oak";
+    tree.species = i == 0 ? "beech" : "Pseudotsuga menziesii";
     tree.x_m = 8.0 * i;
     tree.dbh_cm = 20;
     tree.height_m = 15, tree.crown_base_m = 0, tree.widest_m = 7;  // a crown to the ground
@@ -101,12 +101,12 @@ ForestSpec two_trees() {
   return spec;
 }
 
-TEST(GrownCrowns, OakHasNoGrammarAndKeepsItsLeaves) {
+TEST(GrownCrowns, DouglasFirHasNoGrammarAndKeepsItsLeaves) {
   std::vector<std::string> notes;
   ForestSpec spec = two_trees();
   const Forest grown = grow_forest(spec, library(), {}, &notes);
   ASSERT_EQ(notes.size(), 2u);
-  EXPECT_NE(notes[0].find("Quercus robur has no grammar"), std::string::npos) << notes[0];
+  EXPECT_NE(notes[0].find("Pseudotsuga menziesii has no grammar"), std::string::npos) << notes[0];
   EXPECT_NE(notes[0].find("1 tree)"), std::string::npos) << notes[0];
   EXPECT_NE(notes[1].find("1 tree grown into their crowns, none shared"), std::string::npos) << notes[1];
   spec.filling = CrownFilling::kLeaves;

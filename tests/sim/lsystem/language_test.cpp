@@ -121,10 +121,15 @@ TEST(Determinism, SameSeedSameStringOtherSeedOther) {
 // Every grammar we ship can be read, derived with its own constants and drawn.
 TEST(ShippedGrammars, AllDraw) {
   int grammars = 0;
+  DeriveOptions in_full_light;
+  in_full_light.environment = [](const TurtleState&, std::span<double> parameters) {
+    std::fill(parameters.begin(), parameters.end(), 1.0);
+  };
   for (const auto& entry : std::filesystem::directory_iterator(test::source_dir() / "configs/grammars")) {
     if (entry.path().extension() != ".lsys") continue;
     const Grammar grammar = Grammar::load(entry.path());
-    EXPECT_FALSE(grammar.interpret(grammar.derive({}), StartFrame::kTree).segments.empty()) << entry.path();
+    EXPECT_FALSE(grammar.interpret(grammar.derive(in_full_light), StartFrame::kTree).segments.empty())
+        << entry.path();
     ++grammars;
   }
   EXPECT_GE(grammars, 3);
