@@ -40,19 +40,26 @@ LightMap answer_by_tolerance(AutoRun& run, const ProbePlan& plan, const RunContr
   std::vector<Rung> rungs =
       of_elements ? rungs_for_elements(run.sizes(), run.spread(), run.request(), aim, run.has_sun())
                   : rungs_for_sums(run.sizes(), run.spread(), run.request(), aim, run.has_sun());
-  double worse = 1.0;
+  double worse = 1.0, grid_predicted = aim;
   for (;;) {
     const int next = best_rung(rungs, aim, worse);
     if (next < 0 || rungs[static_cast<std::size_t>(next)].kind == RungKind::kReference) break;
     const Rung rung = rungs[static_cast<std::size_t>(next)];
+    if (rung.kind == RungKind::kLinks && run.may_look_again()) {
+      if (run.look_again(control)) return run.answer();
+      worse = std::max(1.0, 1e-9 + run.last_error() / grid_predicted);  // a finer grid may do after all
+      continue;
+    }
     bool tolerable = false;
     if (attempt_if_it_fits(run, rung, tolerable, control)) {
       if (tolerable) return run.answer();
       if (of_elements && rung.kind == RungKind::kDrawnGrid)
         worse = std::max(worse, 1e-9 + run.last_error() / rung.predicted_error);
+      if (rung.kind == RungKind::kDrawnGrid) grid_predicted = rung.predicted_error;
     }
     drop(rungs, rung, of_elements);
   }
+  if (run.may_look_again() && run.look_again(control)) return run.answer();
   bool tolerable = false;
   Rung reference;
   reference.kind = RungKind::kReference;

@@ -6,6 +6,7 @@
 #include "lighting/trace/probe_path.h"
 #include "lighting/transport/grid_limits.h"
 #include "sim/base/contract.h"
+#include "sim/base/random.h"
 
 namespace sunfleck {
 namespace {
@@ -36,23 +37,65 @@ AutoRun::AutoRun(const LightScene& scene, const OpticsTable& optics, const Illum
 
 void AutoRun::probe(const ProbePlan& plan, const RunControl& control) {
   plan_ = plan;
-  std::unique_ptr<ProbeScene> rays;
   {
     const StageTimer timer(times_, "building ray scene");
-    rays = std::make_unique<ProbeScene>(trace::KeptRays(scene_.forest, scene_.store, control),
-                                        request_.reference.ground);
+    rays_ = std::make_unique<ProbeScene>(trace::KeptRays(scene_.forest, scene_.store, control),
+                                         request_.reference.ground);
   }
   const StageTimer timer(times_, "probing");
-  probes_ = draw_probes(*rays, optics_, light_, plan_, control);
+  probes_ = draw_probes(*rays_, optics_, light_, plan_, control);
   if (is_of_groups(options().measure))
-    groups_ = draw_group_probes(*rays, optics_, light_, plan_, options(), control);
+    groups_ = draw_group_probes(*rays_, optics_, light_, plan_, options(), control);
   spread_ = light_spread(probes_, bands());
 }
 
 bool AutoRun::attempt(const Rung& rung, const RunControl& control) {
   SUNFLECK_EXPECTS(!probes_.probes.empty());
-  const Judge judge{scene_.forest, scene_.index, optics_, probes_, groups_ ? &*groups_ : nullptr, options()};
-  return take(judge.judge(rung.name(), run(rung, control), corrections_of(rung)));
+  return take(judge().judge(rung.name(), run(rung, control), corrections_of(rung)));
+}
+
+Judge AutoRun::judge() const {
+  return {scene_.forest, scene_.index, optics_, probes_, groups_ ? &*groups_ : nullptr, options()};
+}
+
+// Two standard errors of the mean square down from what was measured.
+bool AutoRun::may_be_within(const Attempt& attempt) const {
+  for (const JudgedBand& band : attempt.bands) {
+    const PointError error = point_error(band.sample);
+    const double square = error.element_rms * error.element_rms;
+    if (square - error.resolution * error.resolution > options().aim() * options().aim()) return false;
+  }
+  return true;
+}
+
+void AutoRun::draw_more_probes(const RunControl& control) {
+  constexpr int kTimesMore = 3;
+  const StageTimer timer(times_, "probing");
+  ProbePlan more = plan_;
+  more.seed = mix_seed(plan_.seed, 2);
+  more.count = kTimesMore * plan_.count;
+  const ProbeSet drawn = draw_probes(*rays_, optics_, light_, more, control);
+  probes_.probes.insert(probes_.probes.end(), drawn.probes.begin(), drawn.probes.end());
+  probes_.area_m2.insert(probes_.area_m2.end(), drawn.area_m2.begin(), drawn.area_m2.end());
+  plan_.count += more.count;
+}
+
+bool AutoRun::may_look_again() const {
+  return !looked_again_ && best_ && is_of_elements() && may_be_within(*best_);
+}
+
+// The corrections stay: they were fitted to a quarter of the probes that judge them now.
+bool AutoRun::look_again(const RunControl& control) {
+  SUNFLECK_EXPECTS(may_look_again());
+  looked_again_ = true;
+  draw_more_probes(control);
+  Attempt again = judge().judge(best_->name + " again", std::move(best_->map), {});
+  for (std::size_t b = 0; b < again.bands.size(); ++b) again.bands[b].correction = best_->bands[b].correction;
+  const std::string name = std::move(best_->name);
+  best_.reset();
+  const bool tolerable = take(std::move(again));
+  best_->name = name;
+  return tolerable;
 }
 
 LightMap AutoRun::run(const Rung& rung, const RunControl& control) {

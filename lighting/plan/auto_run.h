@@ -25,6 +25,11 @@ class AutoRun {
   // Runs, corrects and measures a rung, and keeps it if it is the best so far. True if it is within the
   // tolerance. Throws what the method throws.
   bool attempt(const Rung& rung, const RunControl& control);
+  // True, once, if the error of the best so far may be within the tolerance but too few probes were drawn to
+  // tell. look_again() then judges it by four times as many, which is cheaper than a rung that costs ten
+  // times as much: true if it is within.
+  bool may_look_again() const;
+  bool look_again(const RunControl& control);
   bool has_answer() const { return best_.has_value(); }
   // Of the last attempt, in the tolerance's measure.
   double last_error() const { return last_error_; }
@@ -48,6 +53,9 @@ class AutoRun {
   LightRequest asked_of(const Rung& rung) const;
   std::vector<CorrectionForm> corrections_of(const Rung& rung) const;
   bool take(Attempt attempt);
+  Judge judge() const;
+  bool may_be_within(const Attempt& attempt) const;
+  void draw_more_probes(const RunControl& control);
   void describe(LightMap& map) const;
 
   const LightScene& scene_;
@@ -58,7 +66,9 @@ class AutoRun {
   const SceneSizes& sizes_;
   const bool has_sun_;
   ProbePlan plan_;
+  std::unique_ptr<ProbeScene> rays_;
   ProbeSet probes_;
+  bool looked_again_ = false;
   std::optional<GroupProbes> groups_;
   LightSpread spread_;
   std::shared_ptr<const SunExposure> exposure_;
