@@ -2,8 +2,8 @@
 
 #include <cerrno>
 
-#include "sim/base/pending_file.h"
 #include "sim/base/error.h"
+#include "sim/base/pending_file.h"
 
 namespace sunfleck {
 namespace {

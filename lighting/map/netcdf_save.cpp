@@ -4,10 +4,10 @@
 
 #include "lighting/map/light_map_file.h"
 #include "lighting/map/netcdf_sink.h"
-#include "sim/base/pending_file.h"
 #include "lighting/map/provenance_json.h"
 #include "sim/base/contract.h"
 #include "sim/base/error.h"
+#include "sim/base/pending_file.h"
 
 namespace sunfleck {
 namespace {

@@ -55,7 +55,7 @@ TEST_P(GrownCrown, FillsTheMeasuredShapeWithTheStatedArea) {
   const Prototype tree = grown_crown(species.find(GetParam(), "test"), crown, 90, 3000, 5, {});
   validate(tree, "grown crown");
   EXPECT_NEAR(leaf_area_m2(tree), 90, 1e-3);  // sums of floats
-  EXPECT_LE(tree.foliage.size(), 3300u);  // about as many as asked for
+  EXPECT_LE(tree.foliage.size(), 3300u);      // about as many as asked for
   EXPECT_GE(tree.foliage.size(), 1000u);
   double low = 1e9, high = 0;
   for (const FoliageElement& e : tree.foliage) {
