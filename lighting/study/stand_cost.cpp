@@ -81,7 +81,8 @@ std::size_t interval_count(const TimeSpan& period, IntervalKind kind) {
   return 1;
 }
 
-StandCost predicted_cost(const Forest& forest, const StandStudySpec& spec) {
+StandCost predicted_cost(const Forest& forest, const StandStudySpec& asked) {
+  const StandStudySpec spec = with_directions(forest, asked);
   StandCost cost;
   cost.engine = chosen_engine(forest, spec);
   cost.intervals = interval_count(spec.period, spec.intervals);

@@ -230,11 +230,19 @@ SensorFit sensor_fit(const std::vector<double>& modelled, const std::vector<doub
           spread > 0 ? mo / spread : std::numeric_limits<double>::quiet_NaN()};
 }
 
-StandStudy run_stand_study(const Forest& forest, const StandStudySpec& spec, const RunControl& control) {
+StandStudySpec with_directions(const Forest& forest, StandStudySpec spec) {
+  const bool boxes = chosen_engine(forest, spec) == StandEngine::kBoxes;
+  if (spec.patch_deg == 0.0) spec.patch_deg = boxes ? 12.0 : 6.0;
+  if (spec.bin_deg == 0.0) spec.bin_deg = boxes ? 10.0 : 5.0;
+  return spec;
+}
+
+StandStudy run_stand_study(const Forest& forest, const StandStudySpec& asked, const RunControl& control) {
   validate(forest);
   if (forest.instances.empty()) throw_invalid("forest", "has no trees", "grow or read a forest with trees");
   StandStudy study;
-  study.spec = spec;
+  study.spec = with_directions(forest, asked);
+  const StandStudySpec& spec = study.spec;
   const RadiationTable table = spec.radiation_table ? *spec.radiation_table : read_radiation(spec.radiation);
   const RadiationSeries series = radiation_series(spec.place, spec.period, table, 10, control);
   SkyWeightOptions options;

@@ -201,8 +201,8 @@ void read_cost(const v1::StandLightSpec& message, const std::string& field, Viol
   violations.number(field + ".tree_relative_error", spec.tree_relative_error, 0, 1);
   violations.integer(field + ".sensor_sun_rays", spec.sensor_sun_rays, 1, 100'000);
   violations.integer(field + ".sensor_sky_rays", spec.sensor_sky_rays, 1, 100'000);
-  violations.number(field + ".patch_deg", spec.patch_deg, 1, 30);
-  violations.number(field + ".bin_deg", spec.bin_deg, 1, 30);
+  if (message.has_patch_deg()) violations.number(field + ".patch_deg", spec.patch_deg, 1, 30);
+  if (message.has_bin_deg()) violations.number(field + ".bin_deg", spec.bin_deg, 1, 30);
 }
 
 void read_par(const v1::StandLightSpec& message, const std::string& field, Violations& violations,

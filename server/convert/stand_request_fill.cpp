@@ -112,8 +112,8 @@ void fill_message(const StandStudySpec& spec, v1::StandLightSpec& message) {
   message.set_tree_relative_error(spec.tree_relative_error);
   message.set_sensor_sun_rays(spec.sensor_sun_rays);
   message.set_sensor_sky_rays(spec.sensor_sky_rays);
-  message.set_patch_deg(spec.patch_deg);
-  message.set_bin_deg(spec.bin_deg);
+  if (spec.patch_deg > 0.0) message.set_patch_deg(spec.patch_deg);
+  if (spec.bin_deg > 0.0) message.set_bin_deg(spec.bin_deg);
   message.set_seed(spec.seed);
 }
 
