@@ -90,10 +90,13 @@ void expect_all_lit_by_one(const LightMap& map, double tolerance) {
 }
 
 GridOptions tight(int directions) {
-  return {.directions = directions, .cell_m = 0, .convergence = 1e-6, .max_iterations = 2000};
+  return {.directions = directions, .cell_m = 0, .convergence = 1e-7, .max_iterations = 2000};
 }
 // Floats, summed over some hundred orders.
-constexpr double kRounding = 3e-4;
+constexpr double kRounding = 1e-4;
+// In a period leaves scatter from the mean light of their cell, a difference of what enters and leaves it:
+// single precision of thin cells.
+constexpr double kRoundingOfMeans = 3e-4;
 
 TEST(Furnace, RandomCrownOverWhiteGround) {
   const Forest forest =
@@ -111,7 +114,7 @@ TEST(Furnace, PeriodicCrownOnASlope) {
     // On a slope the sky does not fill the hemisphere of the ground: level faces lose what lies below the
     // horizon. Only the flat furnace is even.
     const LightMap map = grid_light(forest, 1.0, skylight(1.0), tight(26));
-    if (slope == 0.0) expect_all_lit_by_one(map, kRounding);
+    if (slope == 0.0) expect_all_lit_by_one(map, kRoundingOfMeans);
     EXPECT_LT(map.bands[0].budget.absorbed_foliage_w, 1e-6 * map.bands[0].budget.incident_w);
   }
 }
