@@ -117,22 +117,28 @@ std::shared_ptr<const links::DirectLight> kept_links_sun(const LightScene& scene
       });
 }
 
+// What a method keeps with the forest, made once and timed as a stage of the answer that needed it first.
+template <class Prepared, class Key, class Make, class Bytes>
+std::shared_ptr<const Prepared> kept(const LightScene& scene, const char* stage, const Key& key,
+                                     Provenance& before, const RunControl& control, const Make& make,
+                                     const Bytes& bytes) {
+  const StageTimer timer(before, stage);
+  return scene.store.get<Prepared>(
+      key, control, [&] { return std::make_shared<const Prepared>(make()); }, bytes);
+}
+
 }  // namespace
 
 LightMap kept_spp_light_map(const LightScene& scene, const OpticsTable& optics, const Illumination& light,
                             const SppOptions& options, const RunControl& control) {
   Provenance before;
-  std::shared_ptr<const SppPrepared> prepared;
-  {
-    const StageTimer timer(before, "preprocess");
-    prepared = scene.store.get<SppPrepared>(
-        spp_key(options), control,
-        [&] { return std::make_shared<const SppPrepared>(prepare_spp(scene.forest, options, control)); },
-        [&](const SppPrepared&) {  // depths of cells in all directions, and the leaf-area grid where marched
-          return 64 * static_cast<std::uint64_t>(scene.index.element_count()) +
-                 sizeof(float) * 96ull * 4096 * scene.forest.instances.size();
-        });
-  }
+  const auto prepared = kept<SppPrepared>(
+      scene, "preprocess", spp_key(options), before, control,
+      [&] { return prepare_spp(scene.forest, options, control); },
+      [&](const SppPrepared&) {  // depths of cells in all directions, and the leaf-area grid where marched
+        return 64 * static_cast<std::uint64_t>(scene.index.element_count()) +
+               sizeof(float) * 96ull * 4096 * scene.forest.instances.size();
+      });
   LightMap map = spp_light_map(scene.forest, optics, light, *prepared, control);
   add_times(map, before.times);
   return map;
@@ -142,16 +148,10 @@ LightMap kept_envelope_light_map(const LightScene& scene, const OpticsTable& opt
                                  const Illumination& light, const EnvelopeFullOptions& options,
                                  const RunControl& control) {
   Provenance before;
-  std::shared_ptr<const EnvelopePrepared> prepared;
-  {
-    const StageTimer timer(before, "sector depths");
-    prepared = scene.store.get<EnvelopePrepared>(
-        envelope_key(options), control,
-        [&] {
-          return std::make_shared<const EnvelopePrepared>(prepare_envelope(scene.forest, options, control));
-        },
-        [](const EnvelopePrepared& p) { return static_cast<std::uint64_t>(p.memory_bytes()); });
-  }
+  const auto prepared = kept<EnvelopePrepared>(
+      scene, "sector depths", envelope_key(options), before, control,
+      [&] { return prepare_envelope(scene.forest, options, control); },
+      [](const EnvelopePrepared& p) { return static_cast<std::uint64_t>(p.memory_bytes()); });
   LightMap map = envelope_full_light_map(scene.forest, optics, light, *prepared, control);
   add_times(map, before.times);
   return map;
@@ -161,17 +161,10 @@ LightMap kept_envelope_light_map(const LightScene& scene, const OpticsTable& opt
                                  const Illumination& light, const EnvelopeOptions& options,
                                  const RunControl& control) {
   Provenance before;
-  std::shared_ptr<const EnvelopeSectors> sectors;
-  {
-    const StageTimer timer(before, "sector depths");
-    sectors = scene.store.get<EnvelopeSectors>(
-        sectors_key(options), control,
-        [&] {
-          return std::make_shared<const EnvelopeSectors>(
-              prepare_envelope_sectors(scene.forest, options, control));
-        },
-        [](const EnvelopeSectors& s) { return s.bytes(); });
-  }
+  const auto sectors = kept<EnvelopeSectors>(
+      scene, "sector depths", sectors_key(options), before, control,
+      [&] { return prepare_envelope_sectors(scene.forest, options, control); },
+      [](const EnvelopeSectors& s) { return s.bytes(); });
   LightMap map = envelope_light_map(scene.forest, optics, light, options, *sectors, control);
   add_times(map, before.times);
   return map;
@@ -181,14 +174,10 @@ LightMap kept_links_light_map(const LightScene& scene, const OpticsTable& optics
                               const LinksOptions& options, std::span<const float> sunlit_fraction,
                               const RunControl& control) {
   Provenance before;
-  std::shared_ptr<const LinksPrepared> prepared;
-  {
-    const StageTimer timer(before, "tracing links");
-    prepared = scene.store.get<LinksPrepared>(
-        links_key("links", options), control,
-        [&] { return std::make_shared<const LinksPrepared>(prepare_links(scene.forest, options, control)); },
-        [](const LinksPrepared& p) { return p.bytes(); });
-  }
+  const auto prepared = kept<LinksPrepared>(
+      scene, "tracing links", links_key("links", options), before, control,
+      [&] { return prepare_links(scene.forest, options, control); },
+      [](const LinksPrepared& p) { return p.bytes(); });
   std::shared_ptr<const links::DirectLight> sun;
   {
     const StageTimer timer(before, "tracing sun");
@@ -205,14 +194,10 @@ LightMap kept_world_light_map(const LightScene& scene, const OpticsTable& optics
                               const WorldOptions& options, const std::vector<std::uint32_t>& instances,
                               const RunControl& control) {
   Provenance before;
-  std::shared_ptr<const WorldPrepared> prepared;
-  {
-    const StageTimer timer(before, "world preparation");
-    prepared = scene.store.get<WorldPrepared>(
-        world_key(options), control,
-        [&] { return std::make_shared<const WorldPrepared>(prepare_world(scene.forest, options, control)); },
-        [&](const WorldPrepared&) { return options.memory_limit_bytes; });
-  }
+  const auto prepared = kept<WorldPrepared>(
+      scene, "world preparation", world_key(options), before, control,
+      [&] { return prepare_world(scene.forest, options, control); },
+      [&](const WorldPrepared&) { return options.memory_limit_bytes; });
   LightMap map;
   const WorldLight world = world_light(scene.forest, optics, light, options, *prepared, control);
   {
