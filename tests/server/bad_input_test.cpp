@@ -7,14 +7,13 @@
 #include <future>
 #include <limits>
 
-#include "google/rpc/error_details.pb.h"
-#include "google/rpc/status.pb.h"
 #include "server/convert/camera_message.h"
 #include "server/convert/forest_spec_message.h"
 #include "server/convert/light_spec_message.h"
 #include "sunfleck/v1/light.grpc.pb.h"
 #include "sunfleck/v1/render.grpc.pb.h"
 #include "sunfleck/v1/scene.grpc.pb.h"
+#include "tests/server/refused_field.h"
 #include "tests/server/served.h"
 #include "tests/support/golden.h"
 
@@ -48,39 +47,6 @@ class BadInput : public ::testing::Test {
 std::unique_ptr<ServedProcess> BadInput::server_;
 std::shared_ptr<grpc::Channel> BadInput::channel_;
 std::string BadInput::scene_;
-
-// "field: description" of every violation in the details.
-std::vector<std::string> violations_of(const grpc::Status& status) {
-  std::vector<std::string> lines;
-  google::rpc::Status details;
-  EXPECT_TRUE(details.ParseFromString(status.error_details()));
-  for (const auto& detail : details.details()) {
-    google::rpc::BadRequest bad;
-    if (!detail.UnpackTo(&bad)) continue;
-    for (const auto& v : bad.field_violations()) lines.push_back(v.field() + ": " + v.description());
-  }
-  return lines;
-}
-
-void expect_refused(const grpc::Status& status, const std::string& field, const std::string& says) {
-  EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT)
-      << field << ": " << status.error_message();
-  const std::vector<std::string> lines = violations_of(status);
-  bool found = false;
-  std::string all;
-  for (const std::string& line : lines) {
-    found = found || (line.rfind(field + ": ", 0) == 0 && line.find(says) != std::string::npos);
-    all += "\n  " + line;
-  }
-  EXPECT_TRUE(found) << "no violation of '" << field << "' that says '" << says << "' among:" << all;
-}
-
-template <class Message>
-struct Case {
-  const char* field;
-  const char* says;
-  std::function<void(Message&)> spoil;
-};
 
 TEST_F(BadInput, ForestSpecs) {
   using Spec = v1::ForestSpec;

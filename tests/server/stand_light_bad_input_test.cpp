@@ -7,13 +7,12 @@
 #include <functional>
 #include <limits>
 
-#include "google/rpc/error_details.pb.h"
-#include "google/rpc/status.pb.h"
 #include "server/convert/forest_spec_message.h"
 #include "server/convert/stand_request.h"
 #include "sim/base/error.h"
 #include "sunfleck/v1/scene.grpc.pb.h"
 #include "sunfleck/v1/stand_light.grpc.pb.h"
+#include "tests/server/refused_field.h"
 #include "tests/server/stand_scene.h"
 
 namespace sunfleck::test {
@@ -57,31 +56,6 @@ class StandBadInput : public ::testing::Test {
 std::unique_ptr<ServedProcess> StandBadInput::server_;
 std::shared_ptr<grpc::Channel> StandBadInput::channel_;
 std::string StandBadInput::scene_;
-
-void expect_refused(const grpc::Status& status, const std::string& field, const std::string& says) {
-  EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT)
-      << field << ": " << status.error_message();
-  google::rpc::Status details;
-  ASSERT_TRUE(details.ParseFromString(status.error_details()));
-  bool found = false;
-  std::string all;
-  for (const auto& detail : details.details()) {
-    google::rpc::BadRequest bad;
-    if (!detail.UnpackTo(&bad)) continue;
-    for (const auto& v : bad.field_violations()) {
-      found = found || (v.field() == field && v.description().find(says) != std::string::npos);
-      all += "\n  " + v.field() + ": " + v.description();
-    }
-  }
-  EXPECT_TRUE(found) << "no violation of '" << field << "' that says '" << says << "' among:" << all;
-}
-
-template <class Message>
-struct Case {
-  const char* field;
-  const char* says;
-  std::function<void(Message&)> spoil;
-};
 
 TEST_F(StandBadInput, StandLightSpecs) {
   using Spec = v1::StandLightSpec;
