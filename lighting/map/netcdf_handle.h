@@ -5,6 +5,7 @@
 
 #include <netcdf.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <mutex>
 #include <string>
@@ -31,10 +32,19 @@ class NetcdfHandle {
   std::size_t dimension(const std::string& name) const;
   bool has_variable(const std::string& name) const;
   int variable(const std::string& name, const std::vector<std::size_t>& sizes) const;  // checks its shape
-  std::string text_attribute(const std::string& name) const;                           // global
+  std::vector<int> dimensions(int variable) const;                                     // ids
+  std::vector<std::size_t> shape(int variable) const;                                  // their sizes
+  // Of a variable of this shape; what is no number, or no text, is refused.
+  std::vector<double> numbers(const std::string& name, const std::vector<std::size_t>& sizes) const;
+  std::vector<std::string> texts(const std::string& name, std::size_t count) const;
+  // Global ones, of one value.
+  std::string text_attribute(const std::string& name) const;
+  double number_attribute(const std::string& name) const;
+  std::uint64_t seed_attribute() const;
   void put_text(int variable, const std::string& name, const std::string& value) const;
 
  private:
+  void require_one_value(const std::string& name) const;
   enum class Mode { kWrite, kRead };
   NetcdfHandle(std::unique_lock<std::mutex> lock, int id, Mode mode, std::string shown)
       : lock_(std::move(lock)), id_(id), mode_(mode), shown_(std::move(shown)) {}

@@ -50,23 +50,12 @@ std::vector<T> read(const NetcdfHandle& file, const std::string& name, const std
   return values;
 }
 
-std::vector<std::string> read_band_names(const NetcdfHandle& file, std::size_t bands) {
-  const int variable = file.variable("band_name", {bands});
-  std::vector<char*> raw(bands, nullptr);
-  file.check(nc_get_var_string(file.id(), variable, raw.data()), "variable band_name");
-  std::vector<std::string> names(raw.begin(), raw.end());
-  nc_free_string(bands, raw.data());
-  return names;
-}
-
 Provenance read_provenance(const NetcdfHandle& file) {
   Provenance p;
   p.method = file.text_attribute("method");
   p.version = file.text_attribute("version");
   p.forest_hash = file.text_attribute("forest_hash");
-  unsigned long long seed = 0;
-  file.check(nc_get_att_ulonglong(file.id(), NC_GLOBAL, "seed", &seed), "attribute seed");
-  p.seed = seed;
+  p.seed = file.seed_attribute();
   read_json({file.text_attribute("settings"), file.text_attribute("skipped"), file.text_attribute("notes"),
              file.text_attribute("times")},
             file.shown(), p);
@@ -75,7 +64,7 @@ Provenance read_provenance(const NetcdfHandle& file) {
 
 void read_bands(const NetcdfHandle& file, LightMap& map) {
   const std::size_t bands = map.bands.size();
-  const std::vector<std::string> names = read_band_names(file, bands);
+  const std::vector<std::string> names = file.texts("band_name", bands);
   const auto has_budget = read<signed char>(file, "has_budget", {bands}, {0}, {bands});
   for (std::size_t b = 0; b < bands; ++b) {
     map.bands[b].band = names[b];

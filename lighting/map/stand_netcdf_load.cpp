@@ -1,5 +1,7 @@
 // Reads a stand study's tables back.
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "lighting/map/netcdf_handle.h"
 #include "lighting/map/provenance_json.h"
@@ -29,6 +31,7 @@ class StandReader {
     int count = 0;
     file_.check(nc_inq_nvars(file_.id(), &count), "variables");
     for (int id = 0; id < count; ++id) read_variable(id);
+    check_lengths();
     return std::move(all_);
   }
 
@@ -39,10 +42,13 @@ class StandReader {
                   "name a file that `sunfleck stand --netcdf` wrote");
   }
 
-  double number(const char* name) const {
-    double value = 0;
-    file_.check(nc_get_att_double(file_.id(), NC_GLOBAL, name, &value), name);
-    return value;
+  // A whole number that its type holds: casting another would be undefined.
+  template <class T>
+  T whole(double value, const std::string& name) const {
+    if (!(value >= static_cast<double>(std::numeric_limits<T>::min()) &&
+          value < std::ldexp(1.0, std::numeric_limits<T>::digits)))
+      throw_strange(name, "has a value that is impossible");
+    return static_cast<T>(value);
   }
 
   std::string text(int variable, const char* name) const {
@@ -58,30 +64,12 @@ class StandReader {
     return nc_inq_dimid(file_.id(), dimension, &id) == NC_NOERR ? file_.dimension(dimension) : 0;
   }
 
-  std::vector<double> values(const std::string& name) const {
-    int id = 0, rank = 0;
-    file_.check(nc_inq_varid(file_.id(), name.c_str(), &id), name);
-    file_.check(nc_inq_varndims(file_.id(), id, &rank), name);
-    std::vector<int> dimensions(static_cast<std::size_t>(rank));
-    file_.check(nc_inq_vardimid(file_.id(), id, dimensions.data()), name);
-    std::size_t total = 1;
-    for (const int d : dimensions) {
-      std::size_t length = 0;
-      file_.check(nc_inq_dimlen(file_.id(), d, &length), name);
-      total *= length;
-    }
-    std::vector<double> out(total);
-    file_.check(nc_get_var_double(file_.id(), id, out.data()), name);
-    return out;
+  // Of a coordinate of the rows, or of their two bounds each.
+  std::vector<double> rows(const std::string& name, std::size_t count) const {
+    return file_.numbers(name, {count});
   }
-
-  std::vector<std::string> texts(const char* name, std::size_t count) const {
-    const int id = file_.variable(name, {count});
-    std::vector<char*> raw(count, nullptr);
-    file_.check(nc_get_var_string(file_.id(), id, raw.data()), name);
-    std::vector<std::string> out(raw.begin(), raw.end());
-    nc_free_string(count, raw.data());
-    return out;
+  std::vector<double> bounds(const std::string& name, std::size_t count) const {
+    return file_.numbers(name, {count, 2});
   }
 
   void read_header() {
@@ -89,26 +77,27 @@ class StandReader {
     p.method = file_.text_attribute("method");
     p.version = file_.text_attribute("version");
     p.forest_hash = file_.text_attribute("forest_hash");
-    unsigned long long seed = 0;
-    file_.check(nc_get_att_ulonglong(file_.id(), NC_GLOBAL, "seed", &seed), "seed");
-    p.seed = seed;
+    p.seed = file_.seed_attribute();
     read_json({file_.text_attribute("settings"), file_.text_attribute("skipped"),
                file_.text_attribute("notes"), file_.text_attribute("times")},
               file_.shown(), p);
-    all_.place = {values("latitude")[0], values("longitude")[0], values("altitude")[0]};
-    all_.par = {number("par_fraction_of_global_energy"), number("par_umol_per_j")};
-    all_.virtual_trees = static_cast<std::size_t>(number("virtual_trees_left_out"));
-    all_.utc_offset_minutes = static_cast<int>(number("utc_offset_minutes"));
-    all_.layer_area_m2 = number("layer_area_m2");
-    all_.map.periodic = number("map_is_periodic") != 0;
+    all_.place = {file_.numbers("latitude", {})[0], file_.numbers("longitude", {})[0],
+                  file_.numbers("altitude", {})[0]};
+    all_.par = {file_.number_attribute("par_fraction_of_global_energy"),
+                file_.number_attribute("par_umol_per_j")};
+    all_.virtual_trees =
+        whole<std::uint32_t>(file_.number_attribute("virtual_trees_left_out"), "virtual_trees_left_out");
+    all_.utc_offset_minutes = whole<int>(file_.number_attribute("utc_offset_minutes"), "utc_offset_minutes");
+    all_.layer_area_m2 = file_.number_attribute("layer_area_m2");
+    all_.map.periodic = file_.number_attribute("map_is_periodic") != 0;
   }
 
   void read_times() {
     all_.intervals = {file_.text_attribute("period_name")};
-    std::vector<double> ends = values("period_bnds");
+    std::vector<double> ends = rows("period_bnds", 2);
     if (const std::size_t parts = size("time"); parts > 0) {
-      for (const std::string& name : texts("interval_name", parts)) all_.intervals.push_back(name);
-      const std::vector<double> more = values("time_bnds");
+      for (const std::string& name : file_.texts("interval_name", parts)) all_.intervals.push_back(name);
+      const std::vector<double> more = bounds("time_bnds", parts);
       ends.insert(ends.end(), more.begin(), more.end());
     }
     for (std::size_t i = 0; i < ends.size(); i += 2) {
@@ -121,17 +110,20 @@ class StandReader {
     if (const std::size_t trees = size("tree"); trees > 0) read_trees(trees);
     if (const std::size_t sensors = size("sensor"); sensors > 0) read_sensors(sensors);
     if (size("x") > 0 && size("y") > 0) read_map();
-    if (size("layer") > 0) all_.layer_m = values("layer_bnds")[1] - values("layer_bnds")[0];
-    if (size("angle") > 0) all_.angles_deg = values("angle");
-    if (size("ring") > 0) {
-      const std::vector<double> ends = values("ring_bnds");
+    if (const std::size_t layers = size("layer"); layers > 0) {
+      const std::vector<double> ends = bounds("layer_bnds", layers);
+      all_.layer_m = ends[1] - ends[0];
+    }
+    if (const std::size_t angles = size("angle"); angles > 0) all_.angles_deg = rows("angle", angles);
+    if (const std::size_t rings = size("ring"); rings > 0) {
+      const std::vector<double> ends = bounds("ring_bnds", rings);
       all_.ring_bounds_deg = {ends[0]};
       for (std::size_t i = 1; i < ends.size(); i += 2) all_.ring_bounds_deg.push_back(ends[i]);
     }
   }
 
   void read_map() {
-    const std::vector<double> x = values("x_bnds"), y = values("y_bnds");
+    const std::vector<double> x = bounds("x_bnds", size("x")), y = bounds("y_bnds", size("y"));
     all_.map.nx = static_cast<std::uint32_t>(x.size() / 2);
     all_.map.ny = static_cast<std::uint32_t>(y.size() / 2);
     all_.map.lo_m = {x[0], y[0]};
@@ -139,17 +131,18 @@ class StandReader {
   }
 
   void read_trees(std::size_t count) {
-    const auto id = values("tree_id"), x = values("tree_x"), y = values("tree_y"), z = values("tree_z");
-    const auto area = values("tree_leaf_area");
-    const auto species = texts("tree_species", count);
+    const auto id = rows("tree_id", count), area = rows("tree_leaf_area", count);
+    const auto x = rows("tree_x", count), y = rows("tree_y", count), z = rows("tree_z", count);
+    const auto species = file_.texts("tree_species", count);
     for (std::size_t t = 0; t < count; ++t)
-      all_.trees.push_back({static_cast<std::uint32_t>(id[t]), species[t], {x[t], y[t], z[t]}, area[t]});
+      all_.trees.push_back({whole<std::uint32_t>(id[t], "tree_id"), species[t], {x[t], y[t], z[t]}, area[t]});
   }
 
   void read_sensors(std::size_t count) {
-    const auto x = values("sensor_x"), y = values("sensor_y"), height = values("sensor_height");
-    const auto nx = values("sensor_normal_x"), ny = values("sensor_normal_y"), nz = values("sensor_normal_z");
-    const auto names = texts("sensor_name", count);
+    const auto x = rows("sensor_x", count), y = rows("sensor_y", count);
+    const auto height = rows("sensor_height", count), nx = rows("sensor_normal_x", count);
+    const auto ny = rows("sensor_normal_y", count), nz = rows("sensor_normal_z", count);
+    const auto names = file_.texts("sensor_name", count);
     for (std::size_t s = 0; s < count; ++s)
       all_.sensors.push_back({{names[s], {x[s], y[s]}, height[s], {nx[s], ny[s], nz[s]}}, {}, {}, {}});
   }
@@ -171,12 +164,10 @@ class StandReader {
   }
 
   bool has_dimension(int variable, const char* dimension) const {
-    int wanted = 0, rank = 0;
+    int wanted = 0;
     if (nc_inq_dimid(file_.id(), dimension, &wanted) != NC_NOERR) return false;
-    file_.check(nc_inq_varndims(file_.id(), variable, &rank), "dimensions");
-    std::vector<int> dimensions(static_cast<std::size_t>(rank));
-    file_.check(nc_inq_vardimid(file_.id(), variable, dimensions.data()), "dimensions");
-    return std::find(dimensions.begin(), dimensions.end(), wanted) != dimensions.end();
+    const std::vector<int> all = file_.dimensions(variable);
+    return std::find(all.begin(), all.end(), wanted) != all.end();
   }
 
   // The period's variable comes before that of its parts, which go behind its values.
@@ -186,9 +177,13 @@ class StandReader {
     char raw[NC_MAX_NAME + 1] = {};
     file_.check(nc_inq_varname(file_.id(), id, raw), "variable");
     const std::string full = raw;
+    if (!full.starts_with(target + "_")) throw_strange(full, "is not named after its table");
     std::string name = full.substr(target.size() + 1);
     StandTable& table = table_of(target);
-    if (has_dimension(id, "time")) return append(full, table.variables.back());
+    if (has_dimension(id, "time")) {
+      if (table.variables.empty()) throw_strange(full, "comes before that of the whole period");
+      return append(full, id, table.variables.back());
+    }
     StandVariable v;
     v.per_interval = name.ends_with(stand_file::kPeriod);
     if (v.per_interval) name.resize(name.size() - std::string(stand_file::kPeriod).size());
@@ -198,16 +193,32 @@ class StandReader {
     v.long_name = text(id, "long_name");
     v.standard_name = text(id, "standard_name");
     v.rings = has_dimension(id, "ring") ? static_cast<int>(size("ring")) : 0;
-    append(full, v);
+    append(full, id, v);
     table.variables.push_back(std::move(v));
   }
 
-  void append(const std::string& full, StandVariable& v) const {
-    const std::vector<double> more = values(full);
+  void append(const std::string& full, int id, StandVariable& v) const {
+    const std::vector<double> more = file_.numbers(full, file_.shape(id));
     v.value.insert(v.value.end(), more.begin(), more.end());
     if (!file_.has_variable(full + stand_file::kError)) return;
-    const std::vector<double> errors = values(full + stand_file::kError);
+    const std::vector<double> errors = file_.numbers(full + stand_file::kError, file_.shape(id));
     v.standard_error.insert(v.standard_error.end(), errors.begin(), errors.end());
+  }
+
+  // Readers of the tables count on their lengths.
+  void check_lengths() const {
+    for (const StandTable& table : all_.tables)
+      for (const StandVariable& v : table.variables) {
+        const std::size_t row = table.rows * static_cast<std::size_t>(std::max(1, v.rings));
+        const std::size_t whole = v.per_interval ? row * all_.intervals.size() : row;
+        if (v.value.size() != whole || (!v.standard_error.empty() && v.standard_error.size() != whole))
+          throw_strange(stand_file::variable_name(table.target, v), "does not have a value for each row");
+      }
+  }
+
+  [[noreturn]] void throw_strange(const std::string& variable, const std::string& problem) const {
+    throw_invalid(file_.shown(), "variable " + variable + " " + problem,
+                  "name a file that `sunfleck stand --netcdf` wrote");
   }
 
   const NetcdfHandle& file_;

@@ -1,7 +1,44 @@
+// Messages quote what users gave, which may be anything: they are kept to one line that a terminal, a log and
+// a gRPC status (8 KiB with everything) can carry.
 #include "sim/base/error.h"
+
+#include <array>
+#include <cstdio>
+#include <string_view>
 
 namespace sunfleck {
 namespace {
+
+constexpr std::size_t kMostBytes = 1500, kKeptAtEnd = 300;
+
+bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
+bool continues_utf8(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
+
+// The middle of a long text left out, never within a character.
+std::string shortened(std::string text) {
+  if (text.size() <= kMostBytes) return text;
+  std::size_t head = kMostBytes - kKeptAtEnd, tail = text.size() - kKeptAtEnd;
+  while (head > 0 && continues_utf8(text[head])) --head;
+  while (tail < text.size() && continues_utf8(text[tail])) ++tail;
+  return text.replace(head, tail - head, " [...] ");
+}
+
+// Line ends and tabs become blanks, other control characters are spelt: \x00.
+std::string one_line(std::string_view text) {
+  std::string line;
+  for (const char c : text) {
+    std::array<char, 8> spelt{};
+    if (c == '\n' || c == '\t' || c == '\r') {
+      line += ' ';
+    } else if (is_control(c)) {
+      std::snprintf(spelt.data(), spelt.size(), "\\x%02x", static_cast<unsigned>(c));
+      line += spelt.data();
+    } else {
+      line += c;
+    }
+  }
+  return line;
+}
 
 std::string sentence(const std::string& where, const std::string& problem, const std::string& remedy) {
   std::string text = where.empty() ? problem : where + ": " + problem;
@@ -9,10 +46,16 @@ std::string sentence(const std::string& where, const std::string& problem, const
   return text;
 }
 
+// The parts made fit to be shown, and the sentence of them.
+std::string settle(std::string& where, std::string& problem, std::string& remedy) {
+  for (std::string* part : {&where, &problem, &remedy}) *part = shortened(one_line(*part));
+  return sentence(where, problem, remedy);
+}
+
 }  // namespace
 
 Error::Error(ErrorKind kind, std::string where, std::string problem, std::string remedy)
-    : std::runtime_error(sentence(where, problem, remedy)),
+    : std::runtime_error(settle(where, problem, remedy)),
       kind_(kind),
       where_(std::move(where)),
       problem_(std::move(problem)),

@@ -1,13 +1,16 @@
 // Reading a TOML file or text into a ConfigTable::Document, and its places in messages ("file:line: key").
 #include "sim/config/config_document.h"
 
+#include <algorithm>
 #include <fstream>
-#include <sstream>
 
 #include "sim/base/error.h"
 
 namespace sunfleck {
 namespace {
+
+constexpr std::size_t kMostBytes = std::size_t{64} << 20;
+constexpr std::size_t kMostKeyParts = 64;
 
 std::string content_of(const std::filesystem::path& path) {
   if (std::error_code failed; std::filesystem::is_directory(path, failed))
@@ -16,13 +19,50 @@ std::string content_of(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in)
     throw Error(ErrorKind::kNotFound, path.string(), "there is no such file", "give the path of a TOML file");
-  std::ostringstream content;
-  content << in.rdbuf();
+  std::string content, block(std::size_t{1} << 16, '\0');
+  while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0) {
+    content.append(block, 0, static_cast<std::size_t>(in.gcount()));
+    if (content.size() > kMostBytes)
+      throw Error(ErrorKind::kLimitExceeded, path.string(), "is larger than 64 MiB", "give a TOML file");
+  }
   if (in.bad()) throw Error(ErrorKind::kInputOutput, path.string(), "the file cannot be read");
-  return content.str();
+  return content;
+}
+
+// Most dots in one key of a line; dots within quotes, numbers and comments do not count together.
+std::size_t most_dots_of_a_key(std::string_view line) {
+  std::size_t most = 0, dots = 0;
+  char quote = 0;
+  for (std::size_t i = 0; i < line.size() && (quote || line[i] != '#'); ++i) {
+    const char c = line[i];
+    if (quote) {
+      if (quote == '"' && c == '\\') ++i;
+      if (c == quote) quote = 0;
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (c == '.') {
+      most = std::max(most, ++dots);
+    } else if (std::string_view("=,[]{}").find(c) != std::string_view::npos) {
+      dots = 0;
+    }
+  }
+  return most;
+}
+
+// toml++ limits how deep values nest, but not the tables that one dotted key makes, and walks through them by
+// recursion: hundreds of thousands would overflow the stack.
+void require_shallow_keys(std::string_view text, const std::string& name) {
+  for (std::size_t number = 1; !text.empty(); ++number) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    if (most_dots_of_a_key(text.substr(0, end)) >= kMostKeyParts)
+      throw_invalid(name + ":" + std::to_string(number), "a key of more than 64 parts",
+                    "write keys such as light.sun.zenith_deg");
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
 }
 
 toml::table parsed(std::string_view text, const std::string& name) {
+  require_shallow_keys(text, name);
   try {
     return toml::parse(text);
   } catch (const toml::parse_error& error) {

@@ -6,6 +6,8 @@
 
 #include <cmath>
 #include <cstdio>
+#include <fstream>
+#include <functional>
 
 #include "lighting/map/light_map_file.h"
 #include "lighting/map/stand_netcdf.h"
@@ -181,6 +183,85 @@ TEST(StandNetcdf, RefusesOtherFilesAndUnwritablePlaces) {
   EXPECT_THROW(load_stand_netcdf(test::scratch_dir() / "absent.nc"), Error);
   EXPECT_THROW(load_netcdf(saved()), Error);  // a stand study is no light map
   EXPECT_THROW(save_stand_netcdf(example_study().tables, "/nonexistent/a.nc"), Error);
+}
+
+// A copy of the saved file, changed by the C library.
+fs::path changed(const std::function<void(int file)>& change) {
+  const fs::path path = test::scratch_dir() / "changed.nc";
+  fs::copy_file(saved(), path, fs::copy_options::overwrite_existing);
+  int file = 0;
+  EXPECT_EQ(nc_open(path.c_str(), NC_WRITE, &file), NC_NOERR);
+  EXPECT_EQ(nc_redef(file), NC_NOERR);
+  change(file);
+  EXPECT_EQ(nc_close(file), NC_NOERR);
+  return path;
+}
+
+// The variable's name given to one of numbers without or with one dimension.
+void put_in_place_of(int file, const char* name, const char* dimension) {
+  int id = 0, along = 0;
+  ASSERT_EQ(nc_inq_varid(file, name, &id), NC_NOERR) << name;
+  ASSERT_EQ(nc_rename_var(file, id, "gone"), NC_NOERR) << name;
+  if (dimension != nullptr) {
+    ASSERT_EQ(nc_inq_dimid(file, dimension, &along), NC_NOERR) << dimension;
+  }
+  ASSERT_EQ(nc_def_var(file, name, NC_DOUBLE, dimension ? 1 : 0, &along, &id), NC_NOERR) << name;
+}
+
+// What other programs may leave behind: variables of other shapes and types, attributes of several values.
+// Each is refused by its name, none is read beyond its end.
+TEST(StandNetcdf, FilesThatDoNotFitTogetherAreRefused) {
+  const auto replaced = [](const char* name, const char* dimension) {
+    return [=](int file) { put_in_place_of(file, name, dimension); };
+  };
+  const auto numbers = [](const char* name) {
+    return [=](int file) {
+      const std::vector<double> many(1000, 1e300);
+      ASSERT_EQ(nc_put_att_double(file, NC_GLOBAL, name, NC_DOUBLE, many.size(), many.data()), NC_NOERR);
+    };
+  };
+  const auto table = [](const char* name) {
+    return [=](int file) {
+      int id = 0;
+      ASSERT_EQ(nc_inq_varid(file, "tree_absorbed_par_photons_period", &id), NC_NOERR);
+      ASSERT_EQ(nc_put_att_text(file, id, "table", std::string(name).size(), name), NC_NOERR);
+    };
+  };
+  const auto huge_offset = [](int file) {
+    const double offset = 1e300;
+    ASSERT_EQ(nc_put_att_double(file, NC_GLOBAL, "utc_offset_minutes", NC_DOUBLE, 1, &offset), NC_NOERR);
+  };
+  const struct {
+    std::function<void(int)> change;
+    const char* named;
+  } cases[] = {
+      {replaced("latitude", "tree"), "latitude"},
+      {replaced("tree_id", "sensor"), "tree_id"},
+      {replaced("tree_x", nullptr), "tree_x"},
+      {replaced("tree_species", "tree"), "tree_species"},
+      {replaced("sensor_name", "tree"), "sensor_name"},
+      {replaced("layer_bnds", "layer"), "layer_bnds"},
+      {replaced("x_bnds", nullptr), "x_bnds"},
+      {replaced("time_bnds", "time"), "time_bnds"},
+      {replaced("interval_name", "time"), "interval_name"},
+      {replaced("ring_bnds", "ring"), "ring_bnds"},
+      {replaced("period_bnds", nullptr), "period_bnds"},
+      {replaced("tree_absorbed_par_photons_period", "sensor"), "gone"},
+      {numbers("seed"), "seed"},
+      {numbers("layer_area_m2"), "layer_area_m2"},
+      {numbers("method"), "method"},
+      {huge_offset, "utc_offset_minutes"},
+      {table("a table whose name is longer than that of the variable that says so"), "tree_absorbed"},
+      {table("sensor"), "tree_absorbed"},
+  };
+  for (const auto& each : cases) {
+    try {
+      load_stand_netcdf(changed(each.change));
+      ADD_FAILURE() << "accepted: " << each.named;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find(each.named), std::string::npos) << error.what();
+    }
+  }
 }
 
 }  // namespace

@@ -183,6 +183,41 @@ TEST(ConfigTable, MissingFileOrFolderIsNotFound) {
   }
 }
 
+std::string key_of_parts(std::size_t parts) {
+  std::string key = "a";
+  for (std::size_t i = 1; i < parts; ++i) key += ".a";
+  return key;
+}
+
+// A key of 200,000 parts made the parser overflow its stack; dots that are no keys do not count.
+TEST(ConfigTable, KeysOfVeryManyPartsAreRefused) {
+  for (const std::string& line :
+       {key_of_parts(200'000) + " = 1", "[" + key_of_parts(65) + "]", "x = {" + key_of_parts(65) + " = 1}",
+        "\"=\\\"\"." + key_of_parts(65) + "=1"}) {
+    try {
+      ConfigTable::from_text("b = 1\n" + line + "\n", "f.toml");
+      FAIL() << "accepted: " << line.substr(0, 40);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.where(), "f.toml:2");
+      EXPECT_NE(error.problem().find("more than 64 parts"), std::string::npos) << error.problem();
+    }
+  }
+  std::string numbers = "0.5";
+  for (int i = 0; i < 200; ++i) numbers += ", 0.5";
+  EXPECT_NO_THROW(ConfigTable::from_text("# " + std::string(300, '.') + "\na = \"" + std::string(300, '.') +
+                                             "\"\nb = [" + numbers + "]\nk." + key_of_parts(63) + "=1\n",
+                                         "f.toml"));
+}
+
+TEST(ConfigTable, AFileWithoutEndIsRefused) {
+  try {
+    ConfigTable::from_file("/dev/zero");
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kLimitExceeded);
+  }
+}
+
 TEST(ConfigTable, FileKnowsItsFolderAndLine) {
   const auto path = test::scratch_dir() / "scene.toml";
   std::ofstream(path) << "# head\nratio = 2\n";
