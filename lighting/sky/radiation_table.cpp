@@ -191,7 +191,7 @@ RadiationTable radiation_table(const std::string& name, RadiationPer per, bool i
 
 RadiationTable read_radiation(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
-  if (!in)
+  if (!in || !std::filesystem::is_regular_file(path))
     throw Error(ErrorKind::kNotFound, path.string(), "the radiation table cannot be opened", "a CSV file");
   std::ostringstream text;
   text << in.rdbuf();

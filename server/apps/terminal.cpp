@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <exception>
 #include <mutex>
+#include <new>
 #include <thread>
 
 #include "sim/base/error.h"
@@ -112,6 +113,10 @@ int run_and_report(const std::function<void()>& command) {
     finish_progress();
     std::fprintf(stderr, "sunfleck: %s\n", error.what());
     return exit_code(error.kind());
+  } catch (const std::bad_alloc&) {
+    finish_progress();
+    std::fprintf(stderr, "sunfleck: not enough memory for this (a smaller forest, picture or grid)\n");
+    return exit_code(ErrorKind::kLimitExceeded);
   } catch (const std::exception& error) {
     finish_progress();
     std::fprintf(stderr, "sunfleck: internal error: %s\n", error.what());

@@ -11,6 +11,11 @@
 namespace sunfleck {
 namespace {
 
+// Beyond, cell numbers of any grid over the forest could overflow; the same bound as in forest files.
+constexpr double kFarthest_m = 1e9;
+// A tree is repeated as often as the period fits into it, in x and in y.
+constexpr double kMostPeriodsPerTree = 1000;
+
 Vec3 turned(double yaw_rad, const Vec3& v) {
   const double c = std::cos(yaw_rad), s = std::sin(yaw_rad);
   return {c * v.x - s * v.y, s * v.x + c * v.y, v.z};
@@ -39,6 +44,9 @@ void check_instance(const Forest& forest, std::size_t i) {
                   "there are " + std::to_string(forest.prototypes.size()));
   if (!is_finite(instance.position_m) || !std::isfinite(instance.yaw_rad))
     throw_invalid(where, "position or yaw is not finite", "numbers in metres and radians");
+  const Vec3 away_m = glm::abs(instance.position_m);
+  if (std::max({away_m.x, away_m.y, away_m.z}) > kFarthest_m)
+    throw_invalid(where, "stands further than 1e9 m from the origin", "coordinates in metres");
   if (!(instance.scale > 0.0f && instance.scale <= 1e6f))
     throw_invalid(where, "scale is " + std::to_string(instance.scale), "more than 0, at most 1e6");
 }
@@ -54,6 +62,26 @@ void check_ground(const Forest& forest) {
                     std::isfinite(p.size_m.y) && p.size_m.x > 0.0 && p.size_m.y > 0.0;
   if (!sane)
     throw_invalid("period", "origin not finite or size not positive", "size_x_m and size_y_m above 0");
+}
+
+// Widest prototype in its own frame, by the largest scale at which it stands.
+double widest_tree_m(const Forest& forest) {
+  std::vector<double> scales(forest.prototypes.size(), 0.0);
+  for (const Instance& i : forest.instances)
+    scales[i.prototype.value] = std::max(scales[i.prototype.value], static_cast<double>(i.scale));
+  double widest_m = 0;
+  for (std::size_t p = 0; p < forest.prototypes.size(); ++p) {
+    const Vec3 size_m = prototype_bounds(forest.prototypes[p]).size();
+    widest_m = std::max({widest_m, scales[p] * size_m.x, scales[p] * size_m.y});
+  }
+  return widest_m;
+}
+
+void check_period_holds_trees(const Forest& forest) {
+  if (!forest.period) return;
+  const Vec2 size_m = forest.period->size_m;
+  if (widest_tree_m(forest) > kMostPeriodsPerTree * std::min(size_m.x, size_m.y))
+    throw_invalid("period", "a tree reaches over more than 1000 periods", "a larger size_x_m and size_y_m");
 }
 
 template <class T>
@@ -198,6 +226,7 @@ void validate(const Forest& forest) {
                       "add it to the forest's materials");
   }
   for (std::size_t i = 0; i < forest.instances.size(); ++i) check_instance(forest, i);
+  check_period_holds_trees(forest);
 }
 
 std::string content_hash(const Forest& forest) {

@@ -29,7 +29,8 @@ Grammar Grammar::load(const std::filesystem::path& path, const std::map<std::str
   if (std::error_code failed; std::filesystem::is_directory(path, failed))
     throw Error(ErrorKind::kNotFound, path.string(), "is a folder, not a file", "a grammar file (*.lsys)");
   std::ifstream file(path);
-  if (!file) throw Error(ErrorKind::kNotFound, path.string(), "cannot be read", "a grammar file (*.lsys)");
+  if (!file || !std::filesystem::is_regular_file(path))
+    throw Error(ErrorKind::kNotFound, path.string(), "cannot be read", "a grammar file (*.lsys)");
   std::ostringstream text;
   text << file.rdbuf();
   return parse(text.str(), path.string(), constants);

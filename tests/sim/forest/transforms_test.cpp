@@ -231,6 +231,7 @@ TEST(Forest, InvalidForestsAreRefused) {
       {"instance 1", "scale", [&](Forest& f) { f.instances[1].scale = nan; }},
       {"instance 1", "finite", [&](Forest& f) { f.instances[1].yaw_rad = nan; }},
       {"instance 1", "finite", [&](Forest& f) { f.instances[1].position_m.z = nan; }},
+      {"instance 1", "1e9 m", [](Forest& f) { f.instances[1].position_m.y = -1e300; }},
       {"terrain", "slope", [](Forest& f) { f.terrain.slope_rad = 1.5; }},
       {"terrain", "slope", [](Forest& f) { f.terrain.slope_rad = -0.1; }},
       {"terrain", "finite", [&](Forest& f) { f.terrain.elevation_m = nan; }},
@@ -241,6 +242,10 @@ TEST(Forest, InvalidForestsAreRefused) {
       {"period", "finite",
        [&](Forest& f) {
          f.period = Period{{nan, 0}, {5, 5}};
+       }},
+      {"period", "more than 1000 periods",
+       [](Forest& f) {
+         f.period = Period{{0, 0}, {5, 1e-9}};
        }},
       {"materials.beech.PAR", "outside", [](Forest& f) { f.materials[0].bands[0].leaf_reflectance = -0.1; }},
       {"materials.beech.PAR", "over 1", [](Forest& f) { f.materials[0].bands[0].leaf_reflectance = 0.96; }},

@@ -143,6 +143,8 @@ TEST(Files, FoldersAreNone) {
   }
 }
 
+TEST(Files, DevicesWithoutEndAreNone) { EXPECT_THROW(Grammar::load("/dev/zero"), Error); }
+
 TEST(Files, AbsentOnesAreNamed) {
   try {
     Grammar::load(test::scratch_dir() / "absent.lsys");
