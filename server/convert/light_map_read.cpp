@@ -98,6 +98,8 @@ LightMap light_map_from_messages(const std::vector<ReceivedArray>& arrays,
   for (const BandLightMap& band : map.bands) {
     if (band.elements.size() != map.sunlit_fraction.size())
       refuse(band.band, "has another number of elements");
+    if (!band.standard_error_w_m2.empty() && band.standard_error_w_m2.size() != band.elements.size())
+      refuse(band.band, "has another number of standard errors");
   }
   return map;
 }

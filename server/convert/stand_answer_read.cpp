@@ -1,4 +1,5 @@
 // Head comment in stand_answer.h: the wire back to a study.
+#include <algorithm>
 #include <cstring>
 #include <map>
 
@@ -35,7 +36,8 @@ class Arrays {
     std::uint64_t count = array.bytes.size() / sizeof(T);
     std::vector<T> values(count);
     for (const std::uint64_t n : array.shape) count = n == 0 || count % n != 0 ? 0 : count / n;
-    const bool is_empty = values.empty() && array.bytes.empty();
+    const bool has_no_place = std::find(array.shape.begin(), array.shape.end(), 0u) != array.shape.end();
+    const bool is_empty = has_no_place && array.bytes.empty();
     if (!is_empty && (count != 1 || array.bytes.size() % sizeof(T) != 0))
       refuse(name, "does not fit its shape");
     if (!is_empty) std::memcpy(values.data(), array.bytes.data(), array.bytes.size());

@@ -1,5 +1,5 @@
-// Messages quote what users gave, which may be anything: they are kept to one line that a terminal, a log and
-// a gRPC status (8 KiB with everything) can carry.
+// Messages quote what users gave, which may be a whole binary file: they are kept to what a terminal and a
+// log can show. Line ends stay: they part the entries of lists.
 #include "sim/base/error.h"
 
 #include <array>
@@ -9,9 +9,11 @@
 namespace sunfleck {
 namespace {
 
-constexpr std::size_t kMostBytes = 1500, kKeptAtEnd = 300;
+constexpr std::size_t kMostBytes = 5000, kKeptAtEnd = 500;
 
-bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
+bool is_control(char c) {
+  return (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t') || c == 0x7f;
+}
 bool continues_utf8(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
 
 // The middle of a long text left out, never within a character.
@@ -23,21 +25,15 @@ std::string shortened(std::string text) {
   return text.replace(head, tail - head, " [...] ");
 }
 
-// Line ends and tabs become blanks, other control characters are spelt: \x00.
-std::string one_line(std::string_view text) {
-  std::string line;
+// Control characters spelt: \x00.
+std::string without_controls(std::string_view text) {
+  std::string shown;
   for (const char c : text) {
-    std::array<char, 8> spelt{};
-    if (c == '\n' || c == '\t' || c == '\r') {
-      line += ' ';
-    } else if (is_control(c)) {
-      std::snprintf(spelt.data(), spelt.size(), "\\x%02x", static_cast<unsigned>(c));
-      line += spelt.data();
-    } else {
-      line += c;
-    }
+    std::array<char, 8> spelt{c};
+    if (is_control(c)) std::snprintf(spelt.data(), spelt.size(), "\\x%02x", static_cast<unsigned>(c));
+    shown += spelt.data();
   }
-  return line;
+  return shown;
 }
 
 std::string sentence(const std::string& where, const std::string& problem, const std::string& remedy) {
@@ -48,7 +44,7 @@ std::string sentence(const std::string& where, const std::string& problem, const
 
 // The parts made fit to be shown, and the sentence of them.
 std::string settle(std::string& where, std::string& problem, std::string& remedy) {
-  for (std::string* part : {&where, &problem, &remedy}) *part = shortened(one_line(*part));
+  for (std::string* part : {&where, &problem, &remedy}) *part = shortened(without_controls(*part));
   return sentence(where, problem, remedy);
 }
 

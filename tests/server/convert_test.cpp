@@ -5,12 +5,15 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <limits>
 
 #include "server/convert/array_message.h"
 #include "server/convert/crc32c.h"
 #include "server/convert/half.h"
+#include "server/convert/light_map_message.h"
 #include "server/convert/light_spec_message.h"
+#include "server/convert/stand_answer.h"
 #include "server/convert/stand_request.h"
 #include "server/convert/status_message.h"
 #include "sim/base/error.h"
@@ -133,6 +136,46 @@ TEST(Arrays, DamageIsRefusedWithItsKind) {
       EXPECT_NE(error.problem().find(says), std::string::npos) << error.what();
     }
   }
+}
+
+ReceivedArray floats(const std::string& name, std::vector<std::uint64_t> shape) {
+  std::size_t size = sizeof(float);
+  for (const std::uint64_t n : shape) size *= n;
+  return {name, ElementType::kFloat32, std::move(shape), {}, std::string(size, '\0')};
+}
+
+std::string refusal_of(const std::function<void()>& read) {
+  try {
+    read();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+// Arrays that arrived whole but are not of one size are not read beyond their end.
+TEST(Answers, ThatDoNotFitTogetherAreRefused) {
+  v1::LightMapSummary light;
+  light.add_bands()->set_band("PAR");
+  light.mutable_bands(0)->set_has_standard_error(true);
+  std::vector<ReceivedArray> arrays = {floats("sunlit_fraction", {2}),
+                                       floats("PAR/element_light", {2, 7}),
+                                       floats("PAR/standard_error_w_m2", {1}),
+                                       {"PAR/tree_ids", ElementType::kUint32, {0, 2}, {}, ""},
+                                       {"PAR/tree_light", ElementType::kFloat64, {0, 5}, {}, ""}};
+  light.set_array_count(static_cast<std::uint32_t>(arrays.size()));
+  EXPECT_NE(refusal_of([&] { light_map_from_messages(arrays, light); }).find("standard errors"),
+            std::string::npos);
+  arrays[2] = floats("PAR/standard_error_w_m2", {2});
+  EXPECT_EQ(refusal_of([&] { light_map_from_messages(arrays, light); }), "accepted");
+
+  v1::StandLightSummary stand;
+  stand.add_intervals()->set_label("all");
+  stand.set_by_rays(true);
+  stand.set_array_count(1);
+  const ReceivedArray empty{"tree_ids", ElementType::kUint32, {7}, {}, ""};
+  EXPECT_NE(refusal_of([&] { stand_study_from_messages({empty}, stand, {}); }).find("fit its shape"),
+            std::string::npos);
 }
 
 TEST(LightSpecs, EqualRequestsHaveEqualKeysAndOthersDoNot) {
