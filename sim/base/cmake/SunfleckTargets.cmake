@@ -25,15 +25,25 @@ function(sunfleck_library name)
   target_include_directories(${name} PUBLIC ${CMAKE_SOURCE_DIR})
 endfunction()
 
-# sunfleck_test(name SOURCES a_test.cpp ... LINKS target ...): one GoogleTest program, run by ctest as one test.
+# sunfleck_test(name SOURCES a_test.cpp ... LINKS target ...): one GoogleTest program, run by ctest as one test. Those of
+# tests/support/slow_tests.txt are labelled slow: the presets debug, asan and tsan leave them out.
+file(STRINGS ${CMAKE_SOURCE_DIR}/tests/support/slow_tests.txt SUNFLECK_SLOW_TESTS REGEX "^[a-z]")
+list(TRANSFORM SUNFLECK_SLOW_TESTS REPLACE " .*" "")
+set(SUNFLECK_TEST_LIMIT_S 900)
+if(SUNFLECK_SANITIZE OR CMAKE_BUILD_TYPE STREQUAL "Debug")
+  set(SUNFLECK_TEST_LIMIT_S 3600)
+endif()
 function(sunfleck_test name)
   cmake_parse_arguments(arg "" "" "SOURCES;LINKS" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE sunfleck_flags test_support ${arg_LINKS} GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE SUNFLECK_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
   add_test(NAME ${name} COMMAND ${name})
-  set_tests_properties(${name} PROPERTIES TIMEOUT 900
+  set_tests_properties(${name} PROPERTIES TIMEOUT ${SUNFLECK_TEST_LIMIT_S}
     ENVIRONMENT "TSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/support/tsan_suppressions.txt")
+  if(name IN_LIST SUNFLECK_SLOW_TESTS)
+    set_tests_properties(${name} PROPERTIES LABELS slow)
+  endif()
 endfunction()
 
 # sunfleck_bench(name SOURCES a_bench.cpp ... LINKS target ...): one Google Benchmark program, never a test.
