@@ -16,7 +16,7 @@ double brightest(const Vec3& v) { return std::max({v.x, v.y, v.z}); }
 
 RayStart leaving(const RayHit& hit, bool this_side, const Surface& surface) {
   if (surface.is_shoot) return {};
-  return {hit.kind, this_side == hit.front, hit.instance, hit.local};
+  return start_from(hit, this_side);
 }
 
 // Share of going on by reflection, of a flat surface.

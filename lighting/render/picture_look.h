@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "lighting/render/leaf_outline.h"
+#include "lighting/trace/ray_scene.h"
 
 namespace sunfleck {
 
@@ -39,6 +40,8 @@ struct PictureLook {
   double bark_width_m = 0.5;     // width of a bark image on the stem
   GroundCover ground = GroundCover::kLitter;
   std::vector<MaterialTextures> textures;
+  ShootForm shoots = ShootForm::kVolume;  // how conifers are drawn
+  std::vector<NeedleKind> needles{};      // of the species, for other forms than kVolume
 };
 
 // Everything as the light was computed: for comparisons and measurements.

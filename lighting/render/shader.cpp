@@ -6,13 +6,6 @@
 #include "lighting/trace/surface_sampler.h"
 
 namespace sunfleck {
-namespace {
-
-RayStart leaving(const RayHit& hit, bool this_side = true) {
-  return {hit.kind, this_side == hit.front, hit.instance, hit.local};
-}
-
-}  // namespace
 
 Vec3 Shader::radiance(const RayHit& hit, const Vec3& direction, PathSamples& numbers) const {
   if (hit.kind == HitKind::kSky) return parts_.light.background(direction);
@@ -64,7 +57,7 @@ Vec3 Shader::leaf_lit(const RayHit& hit, const Light& light) const {
   const ElementLight& stored = light_of(hit);
   const Vec3 mine = light(hit.front ? stored.front : stored.back);
   const Vec3 others = light(hit.front ? stored.back : stored.front);
-  if (!s.is_shoot) return (s.reflect * mine + s.pass * others) / kPi;
+  if (!s.is_shoot && hit.needle == RayHit::kNoNeedle) return (s.reflect * mine + s.pass * others) / kPi;
   RayHit other_face = hit;
   other_face.front = !hit.front;
   const Surface o = parts_.surfaces.at(other_face);
@@ -74,7 +67,7 @@ Vec3 Shader::leaf_lit(const RayHit& hit, const Light& light) const {
 Vec3 Shader::irradiance(const RayHit& hit, PathSamples& numbers) const {
   const auto [sun_x, sun_y, x, y] = numbers.next();
   const Vec3 direction = trace::cosine_direction(hit.normal, x, y);
-  const RayHit met = parts_.scene.closest_hit(hit.on_original_m, direction, leaving(hit));
+  const RayHit met = parts_.scene.closest_hit(hit.on_original_m, direction, start_from(hit, true));
   Surface white;
   white.normal = hit.normal;
   white.reflect = Vec3(1.0);
@@ -97,7 +90,7 @@ Vec3 Shader::sun_scattered(const RayHit& hit, const Surface& surface, const Vec3
   const Vec3 to_sun = parts_.light.towards_sun(number);
   const double cosine = glm::dot(hit.normal, to_sun);
   const Vec3 share = scattering(surface, to_sun, to_viewer) * cosine_factor(surface, to_sun);
-  if (share == Vec3(0.0) || parts_.scene.occluded(hit.on_original_m, to_sun, leaving(hit, cosine > 0.0)))
+  if (share == Vec3(0.0) || parts_.scene.occluded(hit.on_original_m, to_sun, start_from(hit, cosine > 0.0)))
     return Vec3(0.0);
   return share * parts_.light.beam_w_m2();
 }

@@ -51,7 +51,7 @@ Surface SurfaceTable::leaf(const RayHit& hit) const {
   const Vec3 back = channel_factor(leaf.albedo_back(), colour_.leaf_exponent);
   Surface s;
   s.normal = s.gloss_normal = hit.normal;
-  s.is_shoot = e.shape == ElementShape::kShoot;
+  s.is_shoot = e.shape == ElementShape::kShoot && hit.needle == RayHit::kNoNeedle;
   s.reflect = hit.front ? leaf.reflectance_front * front : leaf.reflectance_back * back;
   s.pass = hit.front ? leaf.transmittance_back * back : leaf.transmittance_front * front;
   if (scene_.has_outline(hit)) {

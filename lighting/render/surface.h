@@ -12,6 +12,7 @@ namespace sunfleck {
 //   w on the side met:  reflect / pi  (of which share `gloss` in a lobe around the mirror direction)
 //   w on the other:     pass / pi
 //   a shoot:            (reflect + pass) / (4 pi) from everywhere, no cosine: needles point everywhere.
+// A needle drawn for itself is a sheet at the place it is met: what passes leaves on the other side of it.
 struct Surface {
   Vec3 reflect{0}, pass{0};
   Vec3 normal{0, 0, 1};  // unit, of the geometry, on the side met

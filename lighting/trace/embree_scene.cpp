@@ -172,17 +172,20 @@ void add_figures(const Target& to, const Prototype& prototype, PrototypeScene& o
   sort_elements_by_shape(prototype, out);
   add_quads(to, prototype, out);
   add_discs(to, prototype, out);
-  add_shoots(to, prototype, out);
+  if (to.options.shoots == ShootForm::kNeedles)
+    add_needles(to, prototype, out);
+  else
+    add_shoots(to, prototype, out);
   add_wood_cones(to, prototype, out);
   add_wood_triangles(to, prototype, out);
 }
 
-void build_prototype_scene(const Device& device, const Prototype& prototype, PrototypeScene& out,
-                           const RunControl& control) {
+void build_prototype_scene(const Device& device, const Prototype& prototype, const RayScene::Options& options,
+                           PrototypeScene& out, const RunControl& control) {
   SUNFLECK_EXPECTS(out.scene == nullptr);
   if (is_empty(prototype)) return;
   out.scene.reset(rtcNewScene(device.get()));
-  add_figures({device, out.scene.get(), 0, {}}, prototype, out);
+  add_figures({device, out.scene.get(), 0, {}, options}, prototype, out);
   commit(device, out.scene.get(), control);
 }
 

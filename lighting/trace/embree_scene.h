@@ -20,7 +20,7 @@
 namespace sunfleck::trace {
 
 // Geometry ids inside a prototype's scene; where trees are written out, of copy number c: c * kSlots + slot.
-enum Slot : unsigned { kQuads, kDiscs, kShoots, kWoodCones, kWoodTriangles, kSlots };
+enum Slot : unsigned { kQuads, kDiscs, kShoots, kNeedles, kWoodCones, kWoodTriangles, kSlots };
 
 // From tree coordinates to those of an Embree scene.
 struct Placement {
@@ -52,6 +52,7 @@ struct PrototypeScene {
   unsigned copy = kManyCopies;
   std::vector<std::uint32_t> quad_elements, disc_elements, shoot_elements;  // Embree primitive -> element
   std::vector<ShootVolume> shoots;
+  std::vector<std::uint32_t> needles_up_to;  // of the first shoot, the first two, ... where drawn one by one
   std::vector<ConeFrustum> cones;
 };
 
@@ -97,6 +98,13 @@ inline PlacedInstance placed_instance(const RayContext& context, unsigned copy) 
   return {context.copies[copy].instance, context.copies[copy].shift};
 }
 
+// The shoot of `shoot_elements` that a needle belongs to, and which of its needles that is.
+struct NeedlePlace {
+  std::size_t shoot;
+  std::uint32_t needle;
+};
+NeedlePlace needle_place(const PrototypeScene& prototype, unsigned primitive);
+
 // True if the hit lies on the surface the ray starts from, in that very copy.
 bool is_start(const RayContext& context, unsigned copy, HitKind kind, std::uint32_t local);
 
@@ -129,8 +137,8 @@ bool is_empty(const Prototype& prototype);
 void commit(const Device& device, RTCScene scene, const RunControl& control);
 
 // Fills `out` and commits its scene; `out` must stay where it is.
-void build_prototype_scene(const Device& device, const Prototype& prototype, PrototypeScene& out,
-                           const RunControl& control);
+void build_prototype_scene(const Device& device, const Prototype& prototype, const RayScene::Options& options,
+                           PrototypeScene& out, const RunControl& control);
 
 // Adds the figures of a tree to a scene, as geometries first_id + slot; `out` takes what the callbacks need.
 struct Target {
@@ -138,10 +146,12 @@ struct Target {
   RTCScene scene;
   unsigned first_id = 0;
   Placement placement;
+  const RayScene::Options& options;
 };
 void add_figures(const Target& to, const Prototype& prototype, PrototypeScene& out);
-// Shoots and wood of them (embree_solids.cpp).
+// Shoots and wood of them (embree_solids.cpp), and needles (embree_needles.cpp).
 void add_shoots(const Target& to, const Prototype& prototype, PrototypeScene& out);
+void add_needles(const Target& to, const Prototype& prototype, PrototypeScene& out);
 void add_wood_cones(const Target& to, const Prototype& prototype, PrototypeScene& out);
 
 }  // namespace sunfleck::trace

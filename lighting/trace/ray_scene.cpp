@@ -32,7 +32,7 @@ struct RayScene::State {
 
   State(const Forest& forest, const Options& options, const RunControl& control);
   void build(const Forest& forest, const Options& options, const RunControl& control);
-  void build_prototypes(const Forest& forest, const RunControl& control);
+  void build_prototypes(const Forest& forest, const Options& options, const RunControl& control);
   SceneCopy copy_met(const RTCHit& hit) const {
     if (!table.rows.empty()) return copy_in_table(table, hit.instID[0]);
     return copies[flat ? hit.geomID / kSlots : hit.instID[0]];
@@ -59,13 +59,14 @@ Vec3 centre_of(const Forest& forest) {
 }
 
 // Writing out pays where a figure is worth more rays than it takes to build. One copy is written out as fast
-// as it is built.
-bool is_flat_better(std::size_t figures, std::size_t copies, double expected_rays) {
+// as it is built. Needles are too many to be written out for every tree.
+bool is_flat_better(std::size_t figures, std::size_t copies, const RayScene::Options& options) {
   constexpr std::size_t kMostFigures = 4000000, kMostCopies = 100000;
   constexpr double kFewestRaysPerFigure = 16.0;
   if (copies == 1) return true;
+  if (options.shoots == ShootForm::kNeedles) return false;
   return figures <= kMostFigures && copies <= kMostCopies &&
-         expected_rays >= kFewestRaysPerFigure * static_cast<double>(figures);
+         options.expected_rays >= kFewestRaysPerFigure * static_cast<double>(figures);
 }
 
 std::uint64_t key_of(const Vec3& origin, const Vec3& direction) {
@@ -143,6 +144,16 @@ RayHit described(const RTCRayHit& from, const SceneCopy& copy, const Piece& piec
       hit.local = copy.figures->shoot_elements[from.hit.primID];
       set_needle(mix_seed(ray_key, hit.local), direction, hit);
       return hit;
+    case kNeedles: {
+      const NeedlePlace place = needle_place(*copy.figures, from.hit.primID);
+      hit.kind = HitKind::kFoliage;
+      hit.local = copy.figures->shoot_elements[place.shoot];
+      hit.needle = place.needle;
+      set_surface(from.hit, copy, direction, hit);
+      // Either face by lot, as all needles have both.
+      hit.front = (mix_seed(std::bit_cast<std::uint32_t>(from.ray.tfar), from.hit.primID) & 1) == 0;
+      return hit;
+    }
     default:
       hit.kind = slot == kWoodCones ? HitKind::kWood : HitKind::kWoodMesh;
   }
@@ -179,26 +190,27 @@ RayScene::State::State(const Forest& forest, const Options& options, const RunCo
   for (const PrototypeScene& f : figures) has_shoots = has_shoots || !f.shoots.empty();
 }
 
-void RayScene::State::build_prototypes(const Forest& forest, const RunControl& control) {
+void RayScene::State::build_prototypes(const Forest& forest, const Options& options,
+                                       const RunControl& control) {
   figures.resize(forest.prototypes.size());
   for (std::size_t i = 0; i < figures.size(); ++i)
-    build_prototype_scene(device, forest.prototypes[i], figures[i], control);
+    build_prototype_scene(device, forest.prototypes[i], options, figures[i], control);
 }
 
 void RayScene::State::build(const Forest& forest, const Options& options, const RunControl& control) {
   if (!around.periodic && forest.instances.size() >= options.table_from) {
-    build_prototypes(forest, control);
+    build_prototypes(forest, options, control);
     table = make_instance_table(forest, figures, centre_m);
     top = build_table_scene(device, table, control);
     return;
   }
   copies = copies_of(forest, around, centre_m);
   for (const SceneCopy& copy : copies) wrapped_copies += copy.shift == Cell{} ? 0 : 1;
-  flat = is_flat_better(figures_of(forest, copies), copies.size(), options.expected_rays);
+  flat = is_flat_better(figures_of(forest, copies), copies.size(), options);
   if (flat) {
-    top = build_flat_scene(device, forest, copies, figures, around, centre_m, control);
+    top = build_flat_scene(device, forest, copies, figures, around, centre_m, options, control);
   } else {
-    build_prototypes(forest, control);
+    build_prototypes(forest, options, control);
     top = build_top_scene(device, forest, copies, figures, around, centre_m, control);
   }
 }

@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "sim/base/run_control.h"
 #include "sim/base/vec.h"
 #include "sim/forest/forest.h"
+#include "sim/plant/needles.h"
 
 namespace sunfleck {
 
@@ -19,6 +21,9 @@ struct RayHit {
   bool front = false;
   std::uint32_t instance = 0;  // index into Forest::instances (of the original where a wrapped copy was hit)
   std::uint32_t local = 0;     // foliage element, wood segment or triangle of its prototype
+  std::uint32_t needle = kNoNeedle;  // of the shoot `local`, where shoots are drawn needle by needle
+
+  static constexpr std::uint32_t kNoNeedle = 0xFFFFFFFFu;
   double distance_m = 0;
   Vec3 position_m{0};  // world; for a periodic forest brought back into the base cell
   // The same point on the original where a wrapped copy was hit: a ray goes on from here with a RayStart of
@@ -28,11 +33,25 @@ struct RayHit {
 };
 
 // The surface a ray starts on, so that it does not hit the place it leaves. kSky: none. Shoots are no
-// surfaces: a ray from a needle may meet other needles of its own shoot.
+// surfaces: a ray from a needle may meet other needles of its own shoot; where needles are drawn one by one
+// it does not meet the one it starts on, whichever side it leaves to.
 struct RayStart {
   HitKind kind = HitKind::kSky;
   bool front = true;  // wood: from its outer side
   std::uint32_t instance = 0, local = 0;
+  std::uint32_t needle = RayHit::kNoNeedle;
+};
+// From where a ray met something, to the side it came from or to the other.
+inline RayStart start_from(const RayHit& hit, bool to_side_met) {
+  return {hit.kind, to_side_met == hit.front, hit.instance, hit.local, hit.needle};
+}
+
+// How shoots meet rays.
+enum class ShootForm : std::uint8_t {
+  kVolume,  // a cylinder evenly filled with needles turned any way, met by lot
+  // Every needle for itself, round, in the places of expand_needles (which lie inside the cylinder and
+  // have the shoot's area): what the others are measured against, and what is seen from near by.
+  kNeedles
 };
 
 // An Embree scene over the instances of a forest. Immutable; all calls are const and safe from many threads.
@@ -52,6 +71,10 @@ class RayScene {
     double expected_rays = 0;
     // From this number of trees on a forest that does not repeat is kept in rows of 24 bytes per tree.
     std::size_t table_from = 50'000;
+    ShootForm shoots = ShootForm::kVolume;
+    // Other forms than kVolume need the kind of every material that shoots have (else Error(kInvalidInput)).
+    std::vector<NeedleKind> needles{};
+    std::uint64_t needle_seed = 1;  // of expand_needles
   };
   // Throws Error(kCancelled) when stopped while building.
   RayScene(const Forest& forest, const Options& options, const RunControl& control = {});

@@ -144,7 +144,8 @@ std::size_t figures_of(const Forest& forest, const std::vector<SceneCopy>& copie
 
 SceneHandle build_flat_scene(const Device& device, const Forest& forest, std::vector<SceneCopy>& copies,
                              std::vector<PrototypeScene>& placed, const Surroundings& around,
-                             const Vec3& centre_m, const RunControl& control) {
+                             const Vec3& centre_m, const RayScene::Options& options,
+                             const RunControl& control) {
   SceneHandle scene(rtcNewScene(device.get()));
   placed.resize(copies.size());
   for (unsigned i = 0; i < copies.size(); ++i) {
@@ -153,7 +154,7 @@ SceneHandle build_flat_scene(const Device& device, const Forest& forest, std::ve
     const Vec3 moved_by = place_of(instance, copies[i], around, centre_m) - instance.position_m;
     placed[i].copy = i;
     copies[i].figures = &placed[i];
-    add_figures({device, scene.get(), i * kSlots, {&instance, moved_by}},
+    add_figures({device, scene.get(), i * kSlots, {&instance, moved_by}, options},
                 forest.prototypes[instance.prototype.value], placed[i]);
   }
   commit(device, scene.get(), control);

@@ -22,7 +22,8 @@ std::size_t figures_of(const Forest& forest, const std::vector<SceneCopy>& copie
 // there.
 SceneHandle build_flat_scene(const Device& device, const Forest& forest, std::vector<SceneCopy>& copies,
                              std::vector<PrototypeScene>& placed, const Surroundings& around,
-                             const Vec3& centre_m, const RunControl& control);
+                             const Vec3& centre_m, const RayScene::Options& options,
+                             const RunControl& control);
 
 // Commits a scene with one Embree instance per copy, in their order.
 SceneHandle build_top_scene(const Device& device, const Forest& forest, std::vector<SceneCopy>& copies,

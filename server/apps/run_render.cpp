@@ -76,6 +76,8 @@ void run_render(const RenderOptions& o, const RunControl& control) {
   RenderSettings settings = scene.render.value_or(RenderSettings{});
   if (!o.mode.empty()) settings.mode = render_mode_named(o.mode, "--mode");
   settings.effort.keep_when_stopped = settings.mode == RenderMode::kPathTraced;
+  if (settings.look.shoots != ShootForm::kVolume)
+    settings.look.needles = needle_kinds(SpeciesLibrary::load(find_configs({}) / "species"));
   const RenderRequest request{scene.camera ? *scene.camera : default_camera(forest_bounds(forest)),
                               checked(scene.light->light, scene.light->optics.bands.size()), settings.look,
                               settings.effort, settings.leaf_sun};

@@ -98,6 +98,19 @@ void add_fascicle(const ShootFrame& f, const FoliageTemplate& foliage, double sh
 
 }  // namespace
 
+std::vector<NeedleKind> needle_kinds(const SpeciesLibrary& library) {
+  std::vector<NeedleKind> kinds;
+  for (const Species& s : library.all())
+    if (s.foliage.kind == FoliageKind::kShoot) kinds.push_back({s.material.name, s.foliage});
+  return kinds;
+}
+
+const NeedleKind* find_needle_kind(std::span<const NeedleKind> kinds, const std::string& material) {
+  const auto found =
+      std::find_if(kinds.begin(), kinds.end(), [&](const NeedleKind& k) { return k.material == material; });
+  return found == kinds.end() ? nullptr : &*found;
+}
+
 std::size_t needle_count(const FoliageTemplate& foliage) {
   return static_cast<std::size_t>(std::max(1.0, std::round(foliage.needles_per_m * foliage.shoot_length_m)));
 }

@@ -10,6 +10,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "sim/plant/prototype.h"
@@ -21,6 +23,16 @@ struct Needle {
   Vec3f base_m, tip_m;
   float radius_m;  // of the round needle of equal girth
 };
+
+// What grows on the shoots of a material (latin name of the species).
+struct NeedleKind {
+  std::string material;
+  FoliageTemplate foliage;
+};
+// Of all species of the library that carry shoots.
+std::vector<NeedleKind> needle_kinds(const SpeciesLibrary& library);
+// The kind of that material, or null.
+const NeedleKind* find_needle_kind(std::span<const NeedleKind> kinds, const std::string& material);
 
 // How many needles the shoot has: those of the template, whatever the shoot's size (a larger shoot has larger
 // needles); at least one.
