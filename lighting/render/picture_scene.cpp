@@ -94,6 +94,7 @@ PictureScene::PictureScene(const Forest& forest, const PictureLook& look, const 
   check_places(forest);
   load_looks(look);
   reshape_leaves();
+  originals_.resize(this->forest().prototypes.size());
   box_ = forest_bounds(forest_);
   rays_.emplace(this->forest(), RayScene::Options{.shoots = look.shoots, .needles = look.needles}, control);
 }
@@ -131,15 +132,14 @@ bool PictureScene::is_under_trees(const Vec3& p) const {
 }
 
 const FoliageElement& PictureScene::element_of(const RayHit& hit) const {
-  const PrototypeId id = forest_.instances[hit.instance].prototype;
-  return forest().prototypes[id.value].foliage[hit.local];
+  return shown_prototype(hit.instance).foliage[hit.local];
 }
 
 bool PictureScene::has_outline(const RayHit& hit) const {
   if (!any_outline_ || hit.kind != HitKind::kFoliage) return false;
   const FoliageElement& e = element_of(hit);
   return e.shape == ElementShape::kParallelogram &&
-         look_of(forest_.instances[hit.instance].prototype, e.material).changes_outline();
+         look_of(original_prototype(hit.instance), e.material).changes_outline();
 }
 
 Vec2 PictureScene::leaf_place(const RayHit& hit) const {
@@ -161,9 +161,8 @@ Basis PictureScene::leaf_axes(const RayHit& hit) const {
 Vec2 PictureScene::bark_place(const RayHit& hit) const {
   const Instance& at = forest_.instances[hit.instance];
   const Vec3 p = tree_from_world(at, hit.on_original_m);
-  const Prototype& prototype = forest_.prototypes[at.prototype.value];
   if (hit.kind == HitKind::kWoodMesh) return static_cast<double>(at.scale) * Vec2(p.x + p.y, p.z);
-  const WoodSegment& s = prototype.wood[hit.local];
+  const WoodSegment& s = shown_prototype(hit.instance).wood[hit.local];
   const Vec3 axis = Vec3(s.to_m) - Vec3(s.from_m);
   const double length = glm::length(axis);
   if (!(length > 0.0)) return Vec2(0.0);
@@ -177,7 +176,7 @@ Vec2 PictureScene::bark_place(const RayHit& hit) const {
 bool PictureScene::is_hole(const RayHit& hit) const {
   if (!has_outline(hit)) return false;
   const FoliageElement& e = element_of(hit);
-  return !look_of(forest_.instances[hit.instance].prototype, e.material).is_inside(leaf_place(hit));
+  return !look_of(original_prototype(hit.instance), e.material).is_inside(leaf_place(hit));
 }
 
 RayHit PictureScene::closest_hit(const Vec3& origin_m, const Vec3& direction, const RayStart& from) const {

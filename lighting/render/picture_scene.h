@@ -5,6 +5,12 @@
 // of the size at which the covered share of it has the element's area; its base stays where it was. A
 // parallelogram's axis is its diagonal half_u + half_v (leaves of grammars are rhombi with their tip there);
 // one that is as wide as long, and a disc, gets the outline's own aspect. Triangles and shoots stay.
+//
+// Two forests, one numbering of instances: the forest given, for which light was computed, and the forest
+// shown, whose prototypes may have other leaves (outlines, fewer and larger ones) in another order. Hits and
+// RayStarts carry elements, segments and prototypes of the forest SHOWN (`local` counts in
+// shown_prototype(instance)); what is stored per element of the forest given is found by original_element,
+// what is stored per prototype (optics, looks) by original_prototype.
 #pragma once
 
 #include <optional>
@@ -26,7 +32,22 @@ class PictureScene {
   RayHit closest_hit(const Vec3& origin_m, const Vec3& direction, const RayStart& from = {}) const;
   bool occluded(const Vec3& origin_m, const Vec3& direction, const RayStart& from = {}) const;
 
+  // The forest shown. Its instances stand where those of the forest given do; their prototype ids are its
+  // own.
   const Forest& forest() const { return shown_ ? *shown_ : forest_; }
+  const Prototype& shown_prototype(std::uint32_t instance) const {
+    return forest().prototypes[forest().instances[instance].prototype.value];
+  }
+  PrototypeId original_prototype(std::uint32_t instance) const {
+    return forest_.instances[instance].prototype;
+  }
+  // The foliage element of the forest given that a shown one stands for: an index into the foliage of
+  // original_prototype(instance).
+  std::uint32_t original_element(std::uint32_t instance, std::uint32_t shown_local) const {
+    const std::vector<std::uint32_t>& of = originals_[forest().instances[instance].prototype.value];
+    return of.empty() ? shown_local : of[shown_local];
+  }
+  // Of an original prototype.
   const MaterialLook& look_of(PrototypeId prototype, std::size_t material) const {
     return looks_[look_of_[first_[prototype.value] + material]];
   }
@@ -50,7 +71,8 @@ class PictureScene {
   const Forest& forest_;
   std::optional<Forest> shown_;  // where it differs
   std::vector<MaterialLook> looks_;
-  std::vector<std::size_t> look_of_, first_;  // per prototype material; first of each prototype
+  std::vector<std::size_t> look_of_, first_;  // per original prototype's material; first of each prototype
+  std::vector<std::vector<std::uint32_t>> originals_;  // per shown prototype; empty: the same elements
   bool any_outline_ = false;
   Box box_;
   std::optional<RayScene> rays_;

@@ -88,7 +88,8 @@ void look_through_centre(const Stage& stage, int x, int y, std::size_t pixel, Im
   if (hit.kind == HitKind::kGround) return;
   image.instance_id[pixel] = static_cast<float>(hit.instance);
   if (hit.kind != HitKind::kFoliage || map == nullptr) return;
-  const ElementLight& light = map->elements[index.first_element(hit.instance) + hit.local];
+  const ElementLight& light = map->elements[index.first_element(hit.instance) +
+                                            stage.scene.original_element(hit.instance, hit.local)];
   image.irradiance_w_m2[pixel] = light.front.total() + light.back.total();
 }
 
