@@ -22,8 +22,10 @@ struct CellGrid {
   std::vector<CellLeaves> cells;
 };
 
-// Into every cell that it covers a sample of.
-void enter_leaf(CellGrid& grid, const FlatLeaf& leaf, const LeafMask& mask, std::uint16_t number);
+// Into the list of every cell where a view may show it: its outline and `reach_m` around it; what it covers
+// itself counts for the low-resolution texture.
+void enter_leaf(CellGrid& grid, const FlatLeaf& leaf, const LeafMask& mask, std::uint16_t number,
+                double reach_m);
 
 // Lists, cells and low-resolution texels of a filled grid. Throws Error(kLimitExceeded) as
 // build_billboard_cloud.

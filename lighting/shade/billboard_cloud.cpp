@@ -12,6 +12,18 @@ namespace {
 
 constexpr std::size_t kMostRecords = 65535;
 
+// The plane's relief, and room on its rectangle for leaves that views shift.
+void widen_for_relief(const std::vector<FlatLeaf>& leaves, double tangent, Billboard& board,
+                      Bounds2& bounds) {
+  for (const FlatLeaf& leaf : leaves) {
+    const double reach = tangent * std::abs(leaf.height);
+    const Bounds2 own = bounds_of(leaf);
+    bounds.include(own.lo - reach);
+    bounds.include(own.hi + reach);
+    board.relief_m = std::max(board.relief_m, std::abs(leaf.height));
+  }
+}
+
 void append_plane(BillboardCloud& cloud, std::span<const FoliageElement> foliage, const LeafPlane& plane,
                   const BillboardOptions& options, double cell_m,
                   std::span<const std::array<float, 4>> ambient) {
@@ -25,6 +37,8 @@ void append_plane(BillboardCloud& cloud, std::span<const FoliageElement> foliage
     bounds.include(own.hi);
   }
   Billboard board;
+  const double tangent = options.relief_tangent;
+  if (tangent > 0) widen_for_relief(leaves, tangent, board, bounds);
   board.along_u = axes.tangent, board.along_v = axes.bitangent, board.normal = plane.normal;
   board.corner_m = plane.centre + bounds.lo.x * axes.tangent + bounds.lo.y * axes.bitangent;
   board.width_m = std::max(bounds.hi.x - bounds.lo.x, 1e-9);
@@ -45,7 +59,7 @@ void append_plane(BillboardCloud& cloud, std::span<const FoliageElement> foliage
   for (std::size_t k = 0; k < leaves.size(); ++k) {
     const std::uint32_t leaf = plane.leaves[k];
     enter_leaf(grid, leaves[k], cloud.mask[static_cast<std::size_t>(leaves[k].shape)],
-               static_cast<std::uint16_t>(k));
+               static_cast<std::uint16_t>(k), tangent * std::abs(leaves[k].height));
     if (cloud.low_res_only) continue;
     const std::array<float, 4> open{1, 1, 1, 1};
     cloud.record.push_back(
@@ -66,17 +80,30 @@ LeafMask leaf_mask(ElementShape shape) {
   return mask;
 }
 
+BillboardOptions published_billboards(int planes) {
+  BillboardOptions options;
+  options.clusters.planes = planes;
+  options.clusters.angle_weight = 20;
+  options.cell_half_edges = 3;
+  options.turn_into_plane = false;
+  options.relief_tangent = 0;
+  return options;
+}
+
 BillboardCloud build_billboard_cloud(const Prototype& prototype, const BillboardOptions& options,
                                      std::span<const std::array<float, 4>> ambient,
                                      const RunControl& control) {
   if (!(options.cell_half_edges >= 1 && options.cell_half_edges <= 64))
     throw_invalid("billboard cells", std::to_string(options.cell_half_edges), "1 to 64 half edges of a leaf");
+  if (!(options.relief_tangent >= 0 && options.relief_tangent <= 8))
+    throw_invalid("billboard relief", std::to_string(options.relief_tangent), "a tangent from 0 to 8");
   if (!ambient.empty() && ambient.size() != prototype.foliage.size())
     throw_invalid("billboard ambient", std::to_string(ambient.size()) + " leaves",
                   "as many as the foliage has");
   const std::vector<LeafPlane> planes = cluster_leaves(prototype.foliage, options.clusters, control);
   BillboardCloud cloud;
   cloud.low_res_only = options.low_res_only;
+  cloud.relief_tangent = options.relief_tangent;
   for (int shape = 0; shape < 4; ++shape)
     cloud.mask[static_cast<std::size_t>(shape)] = leaf_mask(static_cast<ElementShape>(shape));
   double mean_m = 0;

@@ -75,7 +75,9 @@ LeafRecord packed(const FlatLeaf& leaf, const Billboard& board, const Vec2& corn
                      place(leaf.centre.y - corner.y, board.height_m)};
   record.edges = {packed_edge(leaf.half_u.x, scale_m), packed_edge(leaf.half_u.y, scale_m),
                   packed_edge(leaf.half_v.x, scale_m), packed_edge(leaf.half_v.y, scale_m)};
-  record.type_and_ambient = static_cast<std::uint32_t>(leaf.shape);
+  const double lift = board.relief_m > 0 ? std::clamp(leaf.height / board.relief_m, -1.0, 1.0) : 0.0;
+  record.type_and_ambient = static_cast<std::uint32_t>(leaf.shape) |
+                            static_cast<std::uint32_t>(std::lround((lift + 1) * 31.5)) << 2;
   for (int k = 0; k < 4; ++k)
     record.type_and_ambient |=
         static_cast<std::uint32_t>(std::lround(std::clamp(ambient[k], 0.0f, 1.0f) * 63.0f)) << (8 + 6 * k);
