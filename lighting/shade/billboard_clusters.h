@@ -3,7 +3,8 @@
 //   (h^2 + (da^2 + db^2) / 2) / s^2 + w_angle (1 - |n.np|) + w_centre |c - centroid|^2 / R^2,
 // h the leaf centre's distance from the plane, da and db the parts of its half edges across the plane, s the
 // mean half edge, R the crown's radius. Orientation matters more than distance: a leaf seen foreshortened on
-// its plane loses cover.
+// its plane loses cover, one turned into it has the wrong outline; height over the plane is kept (relief).
+// w_angle = 100 gave the least error of pictures at 130 to 260 planes (20 without relief).
 #pragma once
 
 #include <cstdint>
@@ -18,7 +19,7 @@ namespace sunfleck {
 struct ClusterOptions {
   int planes = 260;  // 1 .. 4096; the paper takes 60 to 260
   int iterations = 15;
-  double angle_weight = 20;
+  double angle_weight = 100;
   double centre_weight = 0;  // > 0: compact billboards, fewer layers, more error of cover
   std::uint64_t seed = 1;
 };

@@ -19,6 +19,12 @@ struct BillboardHit {
   float ambient = 1;
 };
 
+// What a ray leaves, so that it does not meet it: the leaf; where leaves have no height of their own (or only
+// the low-resolution texture answered) the whole plane.
+struct BillboardStart {
+  std::uint32_t plane = kNoLeaf, leaf = kNoLeaf;
+};
+
 // How much of the lists is read (5.1).
 struct BillboardDetail {
   int entries = 255;   // of a list; 0: low resolution only
@@ -31,12 +37,12 @@ struct BillboardDetail {
 // between).
 std::optional<BillboardHit> billboard_at(const BillboardCloud& cloud, std::uint32_t plane, const Vec3& origin,
                                          const Vec3& direction, double min_distance_m,
-                                         const BillboardDetail& detail = {});
-// Nearest over all planes. `but_plane` is left out (the one a shadow ray starts from), if any.
+                                         const BillboardDetail& detail = {}, const BillboardStart& from = {});
+// Nearest over all planes.
 std::optional<BillboardHit> closest_billboard(const BillboardCloud& cloud, const Vec3& origin,
                                               const Vec3& direction, double min_distance_m,
                                               const BillboardDetail& detail = {},
-                                              std::uint32_t but_plane = kNoLeaf);
+                                              const BillboardStart& from = {});
 
 // Entries to read where a cell's diagonal is `diagonal_px` pixels: the published product, rounded up; none
 // below half an entry.

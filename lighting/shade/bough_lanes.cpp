@@ -4,66 +4,11 @@
 #include <array>
 #include <cmath>
 
+#include "lighting/shade/bough_way.h"
 #include "lighting/shade/gauss_points.h"
-#include "lighting/shade/lane_math.h"
 
 namespace sunfleck {
 namespace {
-
-constexpr int kLanes = 8;
-using Lanes = std::array<float, kLanes>;
-
-// The constants of a direction that places need, in single precision.
-struct Slopes {
-  explicit Slopes(const BoughDirection& d)
-      : slope(static_cast<float>(d.slope)),
-        constant(static_cast<float>(d.constant)),
-        one_minus_near(static_cast<float>(d.one_minus_near)),
-        one_plus_far(static_cast<float>(d.one_plus_far)),
-        plus_near(static_cast<float>(d.plus_near)),
-        minus_near(static_cast<float>(d.minus_near)),
-        plus_far(static_cast<float>(d.plus_far)),
-        minus_far(static_cast<float>(d.minus_far)),
-        half_sin_near(static_cast<float>(0.5 * d.sin_near)),
-        half_sin_far(static_cast<float>(0.5 * d.sin_far)),
-        scale(static_cast<float>(d.scale)),
-        sine(static_cast<float>(d.sine)),
-        across_x(static_cast<float>(d.across.x)),
-        across_y(static_cast<float>(d.across.y)) {}
-  float slope, constant, one_minus_near, one_plus_far, plus_near, minus_near, plus_far, minus_far;
-  float half_sin_near, half_sin_far, scale, sine, across_x, across_y;
-};
-
-// LinePlace of bough_line.h, one per lane.
-struct Places {
-  Lanes rho, one_minus_u, one_plus_u, minus, plus;
-};
-
-inline void find_place(const Slopes& s, float offset, float t, Places& p, int i) {
-  const float y2 = offset * offset;
-  p.rho[i] = std::sqrt(y2 + t * t);
-  const float far = 1 + std::abs(t) / p.rho[i], near = y2 / (p.rho[i] * p.rho[i] * far);
-  p.one_minus_u[i] = t > 0 ? near : far;
-  p.one_plus_u[i] = t > 0 ? far : near;
-  p.minus[i] = std::sqrt(s.one_minus_near + s.slope * p.one_minus_u[i]);
-  p.plus[i] = std::sqrt(s.one_plus_far + s.slope * p.one_plus_u[i]);
-}
-
-// depth_between of bough_line.h. beta / 2 = acos(plus / sqrt 2).
-inline float lane_depth(const Slopes& s, const Places& a, const Places& b, int i) {
-  const float near_a = a.minus[i] * s.plus_near + s.minus_near * a.plus[i];
-  const float near_b = b.minus[i] * s.plus_near + s.minus_near * b.plus[i];
-  const float far_a = s.minus_far * a.plus[i] + a.minus[i] * s.plus_far;
-  const float far_b = s.minus_far * b.plus[i] + b.minus[i] * s.plus_far;
-  const float near = (near_a / near_b) * (near_a / near_b) * (b.one_minus_u[i] / a.one_minus_u[i]);
-  const float far = (far_a / far_b) * (far_a / far_b) * (b.one_plus_u[i] / a.one_plus_u[i]);
-  // Half the angle between the two needle directions, from its sine; its cosine is never negative.
-  const float sine = 0.5f * (a.minus[i] * b.plus[i] - b.minus[i] * a.plus[i]);
-  const float half_turn = 1.57079633f - lane_acos(std::clamp(sine, -1.0f, 1.0f));
-  const float depth =
-      2 * s.slope * half_turn + s.half_sin_far * lane_log(far) - s.half_sin_near * lane_log(near);
-  return std::max(0.0f, s.scale * depth);
-}
 
 // Weights of the running integral over eight points, in single precision.
 struct RunningWeights {
@@ -79,14 +24,6 @@ struct RunningWeights {
   }
 };
 const RunningWeights kRunning;
-
-// Points of the stretch and what the viewer's side says of them.
-struct ViewLanes {
-  Places place;
-  Lanes x, y, z;  // position
-  Lanes rate;     // depth per share of the stretch (in q)
-  Lanes depth;    // from the viewer
-};
 
 ViewLanes view_lanes(const BoughVolume& v, const Vec3& origin, const BoughDirection& ray, const Slopes& s,
                      const BoughSpans::Span& span, float depth_before) {
@@ -116,89 +53,6 @@ ViewLanes view_lanes(const BoughVolume& v, const Vec3& origin, const BoughDirect
     for (int i = 0; i < kLanes; ++i) view.depth[i] += kRunning.weight[j][i] * view.rate[j];
   for (int i = 0; i < kLanes; ++i) view.depth[i] = std::max(0.0f, view.depth[i]);
   return view;
-}
-
-// The way to the light from each point: closest approach, the end of the way as t, and a gap in it (empty
-// where from = to) that lies beyond the last whorl.
-struct LightLanes {
-  Lanes offset, start, to, gap_from, gap_to;
-  float free_way(int i) const { return std::min(to[i], gap_from[i]) - start[i]; }
-};
-
-LightLanes light_lanes(const BoughVolume& v, const Slopes& s, const ViewLanes& view) {
-  LightLanes light;
-  const float outer = static_cast<float>(v.outer_radius), least = 1e-6f * outer;
-  for (int i = 0; i < kLanes; ++i) {
-    light.offset[i] = std::max(std::abs(view.x[i] * s.across_y - view.y[i] * s.across_x), least);
-    light.start[i] = view.x[i] * s.across_x + view.y[i] * s.across_y;
-    const float half2 = outer * outer - light.offset[i] * light.offset[i];
-    light.to[i] = std::max(light.start[i], std::sqrt(std::max(half2, 0.0f)));
-    light.gap_from[i] = light.gap_to[i] = light.to[i];
-  }
-  return light;
-}
-
-// Roots of A s^2 + 2 B s + C that say where a way meets the cone z - rho cot(aperture) = height, both nappes.
-struct ConeRoots {
-  float low, high;
-  bool real;
-};
-
-inline ConeRoots cone_roots(float a, float b, float c) {
-  const float discriminant = b * b - a * c;
-  const float far = -(b + std::copysign(std::sqrt(std::max(discriminant, 0.0f)), b));
-  const float one = far / a, other = c / (far == 0 ? 1e-30f : far);
-  return {std::min(one, other), std::max(one, other), discriminant >= 0};
-}
-
-// A finite bough ends the way at its first whorl, and has a gap beyond its last one. z - rho cot(aperture) is
-// concave along a line: once below the first whorl a way never comes back, and the gap is one stretch.
-void end_at_whorls(const BoughVolume& v, const BoughDirection& d, const ViewLanes& view, LightLanes& light) {
-  constexpr float never = 1e30f;
-  const float sin2 = static_cast<float>(v.sin_aperture * v.sin_aperture), cos2 = 1 - sin2;
-  const float dx = static_cast<float>(d.along.x), dy = static_cast<float>(d.along.y);
-  const float dz = static_cast<float>(d.along.z), sine = static_cast<float>(d.sine);
-  const float steep = cos2 * sine * sine - sin2 * dz * dz;
-  const float a = std::abs(steep) < 1e-7f ? std::copysign(1e-7f, steep) : steep;
-  const float lowest = static_cast<float>(v.lowest), highest = static_cast<float>(v.highest);
-  for (int i = 0; i < kLanes; ++i) {
-    const float across = cos2 * (view.x[i] * dx + view.y[i] * dy);
-    const float rho2 = cos2 * (view.x[i] * view.x[i] + view.y[i] * view.y[i]);
-    const float z0 = view.z[i] - lowest, z1 = view.z[i] - highest;
-    const ConeRoots first = cone_roots(a, across - sin2 * z0 * dz, rho2 - sin2 * z0 * z0);
-    const float leaves = !first.real      ? never
-                         : first.low > 0  ? first.low
-                         : first.high > 0 ? first.high
-                                          : never;
-    const ConeRoots last = cone_roots(a, across - sin2 * z1 * dz, rho2 - sin2 * z1 * z1);
-    // Shallow ways cross one nappe twice, the upper one if they are high there; steep ones each nappe once.
-    const bool upper = z1 + 0.5f * (last.low + last.high) * dz > 0;
-    const bool crosses = last.real && last.high > 0 && (a > 0 ? upper : dz > 0);
-    const float gap_from = !crosses ? never : a > 0 ? std::max(last.low, 0.0f) : last.high;
-    const float gap_to = !crosses ? never : a > 0 ? last.high : never;
-    light.to[i] = std::min(light.to[i], light.start[i] + leaves * sine);
-    light.gap_from[i] = std::min(light.to[i], light.start[i] + gap_from * sine);
-    light.gap_to[i] = std::min(light.to[i], light.start[i] + gap_to * sine);
-  }
-}
-
-Lanes depths(const Slopes& s, const Lanes& offset, const Lanes& from, const Lanes& to) {
-  Places a, b;
-  Lanes depth;
-  for (int i = 0; i < kLanes; ++i) {
-    find_place(s, offset[i], from[i], a, i);
-    find_place(s, offset[i], to[i], b, i);
-  }
-  for (int i = 0; i < kLanes; ++i) depth[i] = lane_depth(s, a, b, i);
-  return depth;
-}
-
-Lanes light_depths(const BoughVolume& v, const Slopes& s, const LightLanes& light) {
-  Lanes depth = depths(s, light.offset, light.start, light.to);
-  if (!std::isfinite(v.lowest)) return depth;
-  const Lanes gap = depths(s, light.offset, light.gap_from, light.gap_to);
-  for (int i = 0; i < kLanes; ++i) depth[i] = std::max(0.0f, depth[i] - gap[i]);
-  return depth;
 }
 
 // sqrt(sigma_V sigma_L) at t on the way to the light.

@@ -25,8 +25,10 @@ const Forest& forest() {
 const Prototype& tree() { return forest().prototypes[0]; }
 const Vec3 kMiddle(0, 0, 1.5);
 
-BillboardOptions options_of(int planes, bool turn = true, double centre_weight = 0) {
-  return {{planes, 15, 20, centre_weight, 1}, 3, turn, false};
+BillboardOptions options_of(int planes) {
+  BillboardOptions options;
+  options.clusters.planes = planes;
+  return options;
 }
 
 FoliageElement leaf_at(const Vec3& centre, double half = 0.5) {
@@ -49,7 +51,7 @@ Prototype plant_of(std::vector<FoliageElement> foliage) {
 // beside them the sky; list entries cut short fall back to the low-resolution texture.
 TEST(Billboards, ListsAreReadFromBothEnds) {
   const Prototype plant = plant_of({leaf_at({0, 0, 0.1}), leaf_at({0.2, 0, 0.2}), leaf_at({0, 0.2, 0.3})});
-  const BillboardCloud cloud = build_billboard_cloud(plant, options_of(1));
+  const BillboardCloud cloud = build_billboard_cloud(plant, published_billboards(1));
   ASSERT_EQ(cloud.plane.size(), 1u);
   ASSERT_EQ(cloud.record.size(), 3u);
   const auto down = closest_billboard(cloud, {0.1, 0.1, 5}, {0, 0, -1}, 0);
@@ -67,8 +69,43 @@ TEST(Billboards, ListsAreReadFromBothEnds) {
   EXPECT_NEAR(std::abs(far->normal.z), 1, 0.01);
 }
 
+// With relief the same leaves are met at their own heights, wherever the ray comes from: here obliquely,
+// under 45 degrees, so that the point moves by the height. Heights are known to a 63rd of the relief (3 mm).
+TEST(Billboards, ReliefShowsLeavesAtTheirHeights) {
+  const Prototype plant = plant_of({leaf_at({0, 0, 0.1}), leaf_at({0.2, 0, 0.2}), leaf_at({0, 0.2, 0.3})});
+  const BillboardCloud cloud = build_billboard_cloud(plant, options_of(1));
+  const auto down = closest_billboard(cloud, {0.1, 0.1, 5}, {0, 0, -1}, 0);
+  ASSERT_TRUE(down);
+  EXPECT_EQ(down->leaf, 2u);
+  EXPECT_NEAR(down->distance_m, 4.7, 4e-3);
+  const Vec3 slanting = glm::normalize(Vec3(1, 0, -1));
+  for (const double x : {-0.6, -0.45, 0.0, 0.45, 0.6, 0.75}) {
+    // Through (x, 0.05, 0.3): at height z it is at x + 0.3 - z. The leaves reach from -0.5 (-0.3) to 0.5
+    // (0.7).
+    const auto hit = closest_billboard(cloud, Vec3(x, 0.05, 0.3) - 5.0 * slanting, slanting, 0);
+    if (x > 0.65) {
+      EXPECT_FALSE(hit);
+      continue;
+    }
+    const std::uint32_t leaf = x > -0.5 && x < 0.5 ? 2u : x < 0 ? 0u : 1u;
+    ASSERT_TRUE(hit) << x;
+    if (x > 0.55) {
+      EXPECT_EQ(hit->leaf, 1u);  // at height 0.2 the ray is at x + 0.1
+    } else {
+      EXPECT_EQ(hit->leaf, leaf) << x;
+    }
+    const double height = 0.1 + 0.1 * hit->leaf;
+    EXPECT_NEAR(hit->distance_m, 5 + (0.3 - height) * std::sqrt(2.0), 6e-3) << x;
+  }
+  // From the lowest leaf up: the middle one shades it, itself it does not meet.
+  const auto above = closest_billboard(cloud, {0.1, 0.1, 0.1}, {0, 0, 1}, 1e-9, {}, {0, 0});
+  ASSERT_TRUE(above);
+  EXPECT_EQ(above->leaf, 1u);
+  EXPECT_NEAR(above->distance_m, 0.1, 4e-3);
+}
+
 TEST(Billboards, HoldEveryLeafOnceWhereItIs) {
-  const BillboardCloud cloud = build_billboard_cloud(tree(), options_of(130, false));
+  const BillboardCloud cloud = build_billboard_cloud(tree(), published_billboards(130));
   EXPECT_LE(cloud.plane.size(), 130u);
   EXPECT_GE(cloud.plane.size(), 120u);
   EXPECT_EQ(cloud.left_out, 0u);
@@ -131,12 +168,13 @@ CoverErrors cover_errors(const BillboardCloud& cloud) {
   return errors;
 }
 
-// Sheet, three views: projected leaves lose 9.0, 5.6, 4.1 % of cover at 60, 130, 260 planes; laid into their
-// planes 1.0 % at 260. Acceptance: mean error <= 2 %, any view <= 4 % (64^2 rays: 1 % noise of one view).
+// Sheet, three views: projected leaves lose 9.0, 5.6, 4.1 % of cover at 60, 130, 260 planes; turned into
+// their planes 1.0 % at 260. Acceptance: mean error <= 2 %, any view <= 4 % (64^2 rays: 1 % noise of one
+// view).
 TEST(Billboards, CoverOfTheTree) {
   for (const int planes : {60, 130, 260}) {
-    const BillboardCloud projected = build_billboard_cloud(tree(), options_of(planes, false));
-    const BillboardCloud turned = build_billboard_cloud(tree(), options_of(planes, true));
+    const BillboardCloud projected = build_billboard_cloud(tree(), published_billboards(planes));
+    const BillboardCloud turned = build_billboard_cloud(tree(), options_of(planes));
     const CoverErrors lost = cover_errors(projected), kept = cover_errors(turned);
     const BillboardMemory memory = billboard_memory(turned);
     std::cout << planes << " planes: cover projected " << lost.mean << ", laid in " << kept.mean
@@ -148,7 +186,7 @@ TEST(Billboards, CoverOfTheTree) {
     if (planes == 260) {
       EXPECT_LE(kept.mean_abs, 0.02);
       EXPECT_LE(kept.worst, 0.04);
-      EXPECT_LT(memory.total(), 2500000u);  // [Garcia07] Table 1: 3.5 MB for 11,291 leaves on 278 planes
+      EXPECT_LT(memory.total(), 2000000u);  // [Garcia07] Table 1: 3.5 MB for 11,291 leaves on 278 planes
     }
   }
 }
@@ -193,7 +231,8 @@ double lambert(std::uint32_t leaf) {
   return 0.45 * std::abs(glm::dot(element_normal(tree().foliage[leaf]), kSun));
 }
 
-// Noise-corrected RMS of radiance (background .5) where a leaf is half a pixel wide. The sheet proposes .02.
+// Noise-corrected RMS of radiance (background .5) where a leaf is half a pixel wide. The sheet proposes .02;
+// leaves without relief reach .027 (moving and turning them into planes cost .021 and .019 each).
 TEST(Billboards, LightOfTheTreeFromAfar) {
   const RayScene scene(forest(), {.ground = false});
   const BillboardCloud cloud = build_billboard_cloud(tree(), options_of(260));
@@ -211,7 +250,8 @@ TEST(Billboards, LightOfTheTreeFromAfar) {
     const auto hit = closest_billboard(cloud, origin, direction, 0);
     if (!hit) return 0.5;
     const Vec3 point = origin + hit->distance_m * direction;
-    return closest_billboard(cloud, point, kSun, 1e-9, {}, hit->plane) ? 0.0 : lambert(hit->leaf);
+    return closest_billboard(cloud, point, kSun, 1e-9, {}, {hit->plane, hit->leaf}) ? 0.0
+                                                                                    : lambert(hit->leaf);
   };
   const Picture a = picture_of(side, 128, 1, leaves), b = picture_of(side, 128, 2, leaves);
   const Picture c = picture_of(side, 64, 3, boards), d = picture_of(side, 64, 4, boards);
@@ -225,7 +265,7 @@ TEST(Billboards, LightOfTheTreeFromAfar) {
   }
   const double raw = rms(truth, cards), corrected = std::sqrt(std::max(0.0, raw * raw - noise2));
   std::cout << side << " pixels: RMS raw " << raw << ", corrected " << corrected << ", bias " << bias << "\n";
-  EXPECT_LT(corrected, 0.05);
+  EXPECT_LT(corrected, 0.02);
   EXPECT_LT(std::abs(bias), 0.02);
 }
 
@@ -305,6 +345,9 @@ TEST(Billboards, OddPlantsAndBadInput) {
   BillboardOptions cells = options_of(1);
   cells.cell_half_edges = 0;
   EXPECT_THROW(build_billboard_cloud(few, cells), Error);
+  BillboardOptions relief = options_of(1);
+  relief.relief_tangent = -1;
+  EXPECT_THROW(build_billboard_cloud(few, relief), Error);
   EXPECT_THROW(build_billboard_cloud(same, options_of(5), std::vector<std::array<float, 4>>(3)), Error);
   Prototype flat = plant_of({leaf_at({0, 0, 1}, 0)});
   EXPECT_THROW(build_billboard_cloud(flat, options_of(1)), Error);
