@@ -19,6 +19,10 @@ struct RenderSettings {
   ToneMap tone;
 };
 
+// What a picture with these settings is asked for; the mode chooses the function that answers.
+RenderRequest picture_request(const RenderSettings& settings, const Camera& camera,
+                              const Illumination& light);
+
 // Keys: mode ("light_map", "path_traced"), noise, max_samples_per_pixel, leaf_sun ("traced", "stored"),
 // leaf_outline ("by_species", "as_modelled", "ovate", "lobed", "needle"), patterns, leaf_gloss,
 // ground ("litter", "grass"), gloss_exponent, bark_width_m, tone ("linear", "filmic"), exposure_stops, and

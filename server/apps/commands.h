@@ -78,7 +78,7 @@ struct ExportOptions {
 void run_export(const ExportOptions& options, const RunControl& control);
 
 struct BenchOptions {
-  std::string kind;    // error-vs-time, growth, stability, tables
+  std::string kind;    // error-vs-time, growth, images, stability, tables
   bool quick = false;  // tables
   std::string scenes = "quick", bands = "PAR,NIR", methods = "all";
   int reference_rays = 256;
@@ -87,7 +87,12 @@ struct BenchOptions {
   int threads = 1;
   int repeats = 3;
   std::filesystem::path csv, plot, configs;
+  std::filesystem::path scene;   // images: instead of the built-in ones
+  std::string ways = "all";      // images
+  std::vector<int> samples;      // images; empty: 1, 4, 16, 64
+  int reference_samples = 1024;  // images
 };
+void run_bench_images(const BenchOptions& options, const RunControl& control);
 void run_bench_errors(const BenchOptions& options, const RunControl& control);
 void run_bench_stability(const BenchOptions& options, const RunControl& control);
 void run_bench_growth(const BenchOptions& options, const RunControl& control);

@@ -11,6 +11,7 @@ namespace {
 
 void run_bench(const BenchOptions& o, const RunControl& control) {
   if (o.kind == "growth") return run_bench_growth(o, control);
+  if (o.kind == "images") return run_bench_images(o, control);
   if (o.kind == "stability") return run_bench_stability(o, control);
   if (o.kind == "tables") return run_bench_tables(o, control);
   run_bench_errors(o, control);
