@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lighting/sky/sky_by_direction.h"
 #include "sim/base/contract.h"
 
 namespace sunfleck::envelope {
@@ -65,30 +66,6 @@ void add_ring(SectorSet& set, const Vec3& pole, double cosine, double weight, in
   }
 }
 
-constexpr int kCosines = 64, kTurns = 128;
-
-// A lattice of directions that a quarter turn and the horizon map onto itself.
-template <class Visit>
-void for_each_lattice_direction(const Visit& visit) {
-  for (int i = 0; i < kCosines; ++i) {
-    const double z = 2.0 * (i + 0.5) / kCosines - 1.0, sine = std::sqrt(1.0 - z * z);
-    for (int k = 0; k < kTurns; ++k) {
-      const double turn = 2.0 * kPi * (k + 0.5) / kTurns;
-      visit(Vec3(sine * std::cos(turn), sine * std::sin(turn), z));
-    }
-  }
-}
-
-// Directions of the set closest to v; several where v lies between them.
-std::vector<std::size_t> nearest(const SectorSet& set, const Vec3& v) {
-  double best = -1.0;
-  for (const Vec3& w : set.to_source) best = std::max(best, glm::dot(w, v));
-  std::vector<std::size_t> found;
-  for (std::size_t j = 0; j < set.count(); ++j)
-    if (glm::dot(set.to_source[j], v) > best - 1e-9) found.push_back(j);
-  return found;
-}
-
 }  // namespace
 
 SectorSet cubic_sectors(int count) {
@@ -132,27 +109,8 @@ SectorSet layered_sectors(int count, const Vec3& pole) {
 }
 
 SectorSky sector_sky(const SectorSet& set, const SkyRadiance& sky, const Vec3& ground_normal) {
-  SectorSky result{.sky_radiance = std::vector<double>(set.count()),
-                   .ground_share = std::vector<double>(set.count()),
-                   .open_ground_irradiance = 0.0};
-  std::vector<double> counted(set.count());
-  for_each_lattice_direction([&](const Vec3& v) {
-    const double above = glm::dot(v, ground_normal);
-    const double radiance = above > 0.0 ? sky.radiance(v) : 0.0;
-    result.open_ground_irradiance += 4.0 * kPi / (kCosines * kTurns) * std::max(0.0, above) * radiance;
-    const auto sharing = nearest(set, v);
-    for (const std::size_t j : sharing) {
-      const double part = 1.0 / static_cast<double>(sharing.size());
-      counted[j] += part;
-      result.sky_radiance[j] += part * radiance;
-      result.ground_share[j] += above > 0.0 ? 0.0 : part;
-    }
-  });
-  for (std::size_t j = 0; j < set.count(); ++j) {
-    result.sky_radiance[j] /= counted[j];
-    result.ground_share[j] /= counted[j];
-  }
-  return result;
+  SkyByDirection seen = sky_by_direction(set.to_source, sky, ground_normal);
+  return {std::move(seen.radiance), std::move(seen.ground_share), seen.open_ground_irradiance};
 }
 
 }  // namespace sunfleck::envelope

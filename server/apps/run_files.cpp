@@ -23,6 +23,8 @@
 namespace sunfleck {
 namespace {
 
+constexpr double kFarthest_m = 1e9;  // numbers of ground cells and the like stay in their range
+
 void print_light_file(const std::filesystem::path& path) {
   const LightMap map = load_netcdf(path);
   std::printf("light map    %s (seed %llu, version %s) of forest %s\n", map.provenance.method.c_str(),
@@ -98,6 +100,10 @@ std::vector<Instance> read_instances(const std::filesystem::path& path) {
     if (!fields.eof() || (v.size() != 3 && v.size() != 5))
       throw_invalid(path.string() + ":" + std::to_string(number),
                     "is not 'x y z' or 'x y z scale azimuth_deg'", "three or five numbers");
+    if (*std::max_element(v.begin(), v.begin() + 3) > kFarthest_m ||
+        *std::min_element(v.begin(), v.begin() + 3) < -kFarthest_m)
+      throw_invalid(path.string() + ":" + std::to_string(number), "is further than 1e9 m from the origin",
+                    "coordinates in metres");
     Instance instance;
     instance.position_m = {v[0], v[1], v[2]};
     if (v.size() == 5) {

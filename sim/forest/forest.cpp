@@ -11,8 +11,6 @@
 namespace sunfleck {
 namespace {
 
-// Beyond, cell numbers of any grid over the forest could overflow; the same bound as in forest files.
-constexpr double kFarthest_m = 1e9;
 // A tree is repeated as often as the period fits into it, in x and in y.
 constexpr double kMostPeriodsPerTree = 1000;
 
@@ -44,9 +42,6 @@ void check_instance(const Forest& forest, std::size_t i) {
                   "there are " + std::to_string(forest.prototypes.size()));
   if (!is_finite(instance.position_m) || !std::isfinite(instance.yaw_rad))
     throw_invalid(where, "position or yaw is not finite", "numbers in metres and radians");
-  const Vec3 away_m = glm::abs(instance.position_m);
-  if (std::max({away_m.x, away_m.y, away_m.z}) > kFarthest_m)
-    throw_invalid(where, "stands further than 1e9 m from the origin", "coordinates in metres");
   if (!(instance.scale > 0.0f && instance.scale <= 1e6f))
     throw_invalid(where, "scale is " + std::to_string(instance.scale), "more than 0, at most 1e6");
 }

@@ -10,6 +10,8 @@
 namespace sunfleck::lsystem {
 namespace {
 
+constexpr std::size_t kMostSymbols = 60'000;  // they are numbered by 16 bits
+
 // The word (or words) before the first ':' when the statement is no rule; empty otherwise.
 std::string keyword_of(const std::string& text) {
   const std::size_t colon = text.find(':');
@@ -156,15 +158,17 @@ void GrammarParser::declare_symbols(Cursor& rest, bool timed) {
     const std::string name(rest.text.substr(rest.position, end - rest.position));
     if (name.empty()) rest.fail("a symbol without a name", "name or name(number of parameters)");
     rest.position = end;
-    int arity = timed ? 1 : 0;
+    const int least = timed ? 1 : 0;
+    double arity = least;
     if (rest.peek() == '(') {
       ++rest.position;
-      arity = static_cast<int>(number(rest));
+      arity = number(rest);
       rest.expect(")", "name(number of parameters)");
     }
-    if (arity < (timed ? 1 : 0) || arity > kMaxParameters)
+    if (!(arity >= least && arity <= kMaxParameters && arity == std::floor(arity)))
       rest.fail("a number of parameters that cannot be", timed ? "1 to 32, the last one the age" : "0 to 32");
-    const std::uint16_t symbol = out_.symbols.declare(name, arity);
+    if (out_.symbols.size() >= kMostSymbols) rest.fail("too many symbols", "at most 60000");
+    const std::uint16_t symbol = out_.symbols.declare(name, static_cast<int>(arity));
     out_.timed.resize(out_.symbols.size(), 0);
     out_.timed[symbol] = timed ? 1 : 0;
   }

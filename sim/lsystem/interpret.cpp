@@ -16,6 +16,10 @@ double first_or(std::span<const double> parameters, double otherwise) {
   return parameters.empty() ? otherwise : parameters[0];
 }
 
+std::int32_t colour_or(std::span<const double> parameters, double otherwise) {
+  return static_cast<std::int32_t>(std::clamp(first_or(parameters, otherwise), -1e9, 1e9));
+}
+
 }  // namespace
 
 Interpreter::Interpreter(const Grammar::Compiled& grammar, StartFrame frame, const DeriveOptions& options,
@@ -74,6 +78,11 @@ bool Interpreter::interpret_by_rule(std::uint16_t symbol, std::span<const double
   const Rule* rule = runner_.choose(system_->interpretation, symbol, parameters, slots, *random_,
                                     [](const Rule&) { return true; });
   if (rule == nullptr) return false;
+  applied_ = depth == 0 ? 1 : applied_ + 1;
+  if (applied_ % kModulesPerLook == 0) control_.check();
+  if (applied_ > options_.max_modules)
+    fail("interpretation of one module by more than " + std::to_string(options_.max_modules) + " rules",
+         "a smaller `maximum depth:`");
   ModuleString& modules = scratch_[static_cast<std::size_t>(depth)];
   modules.clear();
   runner_.produce_plain(*rule, slots, *random_, modules);
@@ -139,10 +148,10 @@ void Interpreter::change_state(TurtleOp op, std::span<const double> parameters) 
       turtle_.width_m = first_or(parameters, turtle_.width_m + increment);
       return;
     case TurtleOp::kColourUp:
-      turtle_.colour = static_cast<std::int32_t>(first_or(parameters, turtle_.colour + 1));
+      turtle_.colour = colour_or(parameters, turtle_.colour + 1.0);
       return;
     case TurtleOp::kColourDown:
-      turtle_.colour = static_cast<std::int32_t>(first_or(parameters, turtle_.colour - 1));
+      turtle_.colour = colour_or(parameters, turtle_.colour - 1.0);
       return;
     case TurtleOp::kElasticity:
       turtle_.elasticity = first_or(parameters, grammar_.elasticity);

@@ -47,6 +47,7 @@ class Interpreter {
   ModuleRandom* random_ = nullptr;
   bool surface_next_ = false;
   std::size_t current_ = 0;
+  std::size_t applied_ = 0;  // interpretation rules, to the current module
   Drawing drawing_;
 };
 

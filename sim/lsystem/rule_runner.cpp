@@ -55,6 +55,12 @@ void RuleRunner::append(std::uint16_t symbol, std::span<const double> parameters
     fail(ErrorKind::kLimitExceeded,
          "decomposition deeper than " + std::to_string(grammar_.decomposition_depth) + " levels",
          "a rule that ends, or a larger `maximum depth:`");
+  // Modules that decompose into nothing never lengthen the string.
+  applied_ = depth == 0 ? 1 : applied_ + 1;
+  if (applied_ > max_modules_)
+    fail(ErrorKind::kLimitExceeded,
+         "more than " + std::to_string(max_modules_) + " decompositions of one module",
+         "a rule that ends sooner");
   produce(*rule, slots, random, system, direction, out, depth + 1);
 }
 

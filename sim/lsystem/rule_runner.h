@@ -54,6 +54,7 @@ class RuleRunner {
 
   const Grammar::Compiled& grammar_;
   std::size_t max_modules_;
+  std::size_t applied_ = 0;                               // decomposition rules, to one module
   const Rule* rule_ = nullptr;                            // being tried or applied
   std::vector<std::pair<const Rule*, double>> weighted_;  // fitting rules with the sum of weights up to each
   mutable const SuccessorModule* building_ = nullptr;     // module of its successor being evaluated

@@ -52,7 +52,8 @@ TEST(Needle, GoldenDiffuse) {
 
 TEST(Needle, GoldenHighlightOfExponent100) {
   double worst = 0;
-  for (const auto& c : test::golden("pine.json").at("level1_needle")) {
+  const nlohmann::json golden = test::golden("pine.json");
+  for (const auto& c : golden.at("level1_needle")) {
     const double value = needle_specular(vec_of(c["axis"]), vec_of(c["V"]), vec_of(c["L"]), 100.0);
     worst = std::max(worst, std::abs(value - c["Rs_n100_quadrature"].get<double>()));
   }

@@ -145,6 +145,12 @@ TEST(CommandLine, TellsOneClearErrorAndLeavesNothingBehind) {
   fs::copy_file(forest, truncated);
   fs::resize_file(truncated, fs::file_size(truncated) / 2);
   const std::string grammar = write_file("bad.lsys", "axiom: A(\n").string();
+  const std::string leaves = write_file("leaf.txt", "0.1 0 0 2 0 0 1\n").string();
+  const std::string other = (test::scratch_dir() / "other.vdb").string();
+  EXPECT_EQ(run("import " + leaves + " --material 'Fagus sylvatica' -o " + other).code, 0);
+  const auto places = [&](const std::string& name, const std::string& line) {
+    return "import " + leaves + " --instances " + write_file(name, line).string() + " -o " + out;
+  };
   struct Bad {
     std::string arguments, says;
   };
@@ -201,6 +207,29 @@ TEST(CommandLine, TellsOneClearErrorAndLeavesNothingBehind) {
       {"render " + forest + " --light-map " + stand().map.string() + " --scene " +
            spoiled("s10.toml", "zenith_deg = 40", "zenith_deg = 50") + " --png " + png,
        "sun_zenith_deg"},
+      {"render " + other + " --light-map " + stand().map.string() + " --scene " + scene + " --png " + png,
+       "another forest"},
+      {"render " + forest + " --mode path_traced --scene " +
+           spoiled("s11.toml", "width_px = 64", "width_px = 100000") + " --png " + png,
+       "1 to 16384"},
+      {"render " + forest + " --mode path_traced --scene " +
+           spoiled("s12.toml", "[light.reference]",
+                   "[[render.textures]]\nleaf_alpha = \"absent.png\"\n[light.reference]") +
+           " --png " + png,
+       "absent.png"},
+      {places("nan.txt", "nan 0 0\n"), "nan.txt:1"},
+      {places("size.txt", "0 0 0 nan 0\n"), "size.txt:1"},
+      {places("far.txt", "0 0 0\n0 -1e300 0\n"), "far.txt:2"},
+      {"import " + leaves + " --period 0 0 1e-9 1 -o " + out, "1000 periods"},
+      {"import " +
+           write_file("a.obj", "v 0 0 1\nv 1 0 1\nv 1 1 1\nusemtl leaf\nf 1 2 3\nusemtl moss\nf 1 2 3\n")
+               .string() +
+           " --leaf leaf=leaf -o " + out,
+       "a.obj:7: material \"moss\""},
+      {"grow --lsystem " +
+           write_file("endless.lsys", "symbols: A\naxiom: A\ndecomposition:\nA --> A A\n").string() + " -o " +
+           out,
+       "endless.lsys:4"},
       {"client info --address unix:/nowhere.sock", "/nowhere.sock"},
   };
   for (const Bad& bad : table) {

@@ -142,7 +142,8 @@ TEST(LeafClumps, KeepTheirElementsTogether) {
   for (const FoliageElement& e : foliage) area += e.area_m2;
   spec.leaf_area_factor = 2;
   double twice = 0;
-  for (const FoliageElement& e : grow_forest(spec, library, {}).prototypes[0].foliage) twice += e.area_m2;
+  const Forest doubled = grow_forest(spec, library, {});
+  for (const FoliageElement& e : doubled.prototypes[0].foliage) twice += e.area_m2;
   EXPECT_NEAR(twice / area, 2, 1e-5);
 }
 

@@ -231,7 +231,6 @@ TEST(Forest, InvalidForestsAreRefused) {
       {"instance 1", "scale", [&](Forest& f) { f.instances[1].scale = nan; }},
       {"instance 1", "finite", [&](Forest& f) { f.instances[1].yaw_rad = nan; }},
       {"instance 1", "finite", [&](Forest& f) { f.instances[1].position_m.z = nan; }},
-      {"instance 1", "1e9 m", [](Forest& f) { f.instances[1].position_m.y = -1e300; }},
       {"terrain", "slope", [](Forest& f) { f.terrain.slope_rad = 1.5; }},
       {"terrain", "slope", [](Forest& f) { f.terrain.slope_rad = -0.1; }},
       {"terrain", "finite", [&](Forest& f) { f.terrain.elevation_m = nan; }},
