@@ -21,7 +21,7 @@ const std::map<std::string, int>& ranks() {
       {"sim/base", 0},         {"sim/config", 1},         {"sim/lsystem", 1},      {"sim/plant", 2},
       {"sim/growth", 3},       {"sim/forest", 3},         {"sim/exchange", 4},     {"sim/grid", 4},
       {"lighting/optics", 10}, {"lighting/sky", 10},      {"lighting/base", 11},   {"lighting/depth", 12},
-      {"lighting/slab", 13},   {"lighting/envelope", 13}, {"lighting/shade", 13},  {"lighting/transport", 13},
+      {"lighting/slab", 13},   {"lighting/envelope", 13}, {"lighting/shade", 12},  {"lighting/transport", 13},
       {"lighting/trace", 13},  {"lighting/links", 14},    {"lighting/canopy", 15}, {"lighting/plan", 15},
       {"lighting/study", 16},  {"lighting/map", 17},      {"lighting/render", 18}, {"lighting/bench", 19},
       {"lighting/report", 19}, {"server/convert", 20},    {"server/jobs", 21},     {"server/client", 22},
