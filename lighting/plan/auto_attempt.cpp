@@ -18,10 +18,16 @@ std::vector<LightParts> truths(const ProbeSet& probes, std::size_t band) {
   return parts;
 }
 
-std::vector<LightParts> estimates(const ProbeSet& probes, const LightMap& map, std::size_t band) {
+double at(std::span<const float> values, std::size_t element) {
+  return values.empty() ? 0.0 : values[element];
+}
+
+std::vector<LightParts> estimates(const ProbeSet& probes, const LightMap& map, std::size_t band,
+                                  std::span<const float> close_cover) {
   std::vector<LightParts> parts;
   for (const ProbeLight& p : probes.probes)
-    parts.push_back(parts_of(map.bands[band].elements[p.element], map.sunlit_fraction[p.element]));
+    parts.push_back(parts_of(map.bands[band].elements[p.element], map.sunlit_fraction[p.element],
+                             at(close_cover, p.element)));
   return parts;
 }
 
@@ -49,10 +55,11 @@ bool within(const JudgedBand& band, const AutoOptions& o) {
   return resolution <= o.aim();
 }
 
-void apply(const Correction& correction, const std::vector<float>& sunlit, BandLightMap& band) {
+void apply(const Correction& correction, std::span<const float> sunlit, std::span<const float> close_cover,
+           BandLightMap& band) {
   for_each_chunk(band.elements.size(), 8192, {}, {}, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      band.elements[i] = corrected(band.elements[i], sunlit[i], correction);
+      band.elements[i] = corrected(band.elements[i], sunlit[i], correction, at(close_cover, i));
   });
   band.has_budget = false;
   band.budget = {};
@@ -89,9 +96,10 @@ bool keeps_direct(CorrectionForm form) {
 }
 
 Fitted best_fit(const ProbeSet& probes, const LightMap& whole, std::size_t band,
-                const std::vector<CorrectionForm>& forms, AutoMeasure measure) {
+                const std::vector<CorrectionForm>& forms, AutoMeasure measure,
+                std::span<const float> close_cover) {
   const BandLightMap& map = whole.bands[band];
-  const auto truth = truths(probes, band), plain = estimates(probes, whole, band);
+  const auto truth = truths(probes, band), plain = estimates(probes, whole, band, close_cover);
   Fitted best{{}, plain};
   if (forms.empty()) return best;
   if (measure == AutoMeasure::kBias && !bias_is_clear(point_error(sample_error(probes, plain, map, band))))
@@ -119,9 +127,9 @@ Attempt Judge::judge(std::string name, LightMap map, const std::vector<Correctio
   Attempt attempt{std::move(name), std::move(map), {}, 0.0, true};
   std::vector<Fitted> fits;
   for (std::size_t b = 0; b < attempt.map.bands.size(); ++b) {
-    fits.push_back(best_fit(probes, attempt.map, b, forms, options.measure));
+    fits.push_back(best_fit(probes, attempt.map, b, forms, options.measure, close_cover));
     if (fits.back().correction)
-      apply(*fits.back().correction, attempt.map.sunlit_fraction, attempt.map.bands[b]);
+      apply(*fits.back().correction, attempt.map.sunlit_fraction, close_cover, attempt.map.bands[b]);
   }
   summarize(forest, index, optics, attempt.map);
   for (std::size_t b = 0; b < fits.size(); ++b) {

@@ -1,6 +1,7 @@
 // One attempt of `auto`: a map, corrected or not, and what the probes say of it.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,7 @@ struct Judge {
   const ProbeSet& probes;
   const GroupProbes* groups;  // null for measures without groups
   const AutoOptions& options;
+  std::span<const float> close_cover;  // per element; empty: no corrections by it
 
   // Finds the best correction of each band among `forms` (which all keep direct light, or none does), applies
   // it and measures.

@@ -23,7 +23,9 @@ std::size_t term_count(CorrectionForm form) {
       return 2;
     case CorrectionForm::kDiffuseParts:
     case CorrectionForm::kDiffuseBySun:
+    case CorrectionForm::kDiffuseByClose:
       return 3;
+    case CorrectionForm::kDiffuseBySunAndClose:
     case CorrectionForm::kParts:
       break;
   }
@@ -40,6 +42,10 @@ Terms terms_of(CorrectionForm form, const LightParts& e, const LightParts& truth
       return {{e.sky_w_m2, e.scattered_w_m2, 1.0}, truth.diffuse()};
     case CorrectionForm::kDiffuseBySun:
       return {{e.diffuse(), e.sunlit, 1.0}, truth.diffuse()};
+    case CorrectionForm::kDiffuseByClose:
+      return {{e.diffuse(), e.close, 1.0}, truth.diffuse()};
+    case CorrectionForm::kDiffuseBySunAndClose:
+      return {{e.diffuse(), e.sunlit, e.close, 1.0}, truth.diffuse()};
     case CorrectionForm::kParts:
       break;
   }
@@ -56,6 +62,10 @@ Correction correction_of(CorrectionForm form, const std::array<double, kMostTerm
       return {c[2], 1.0, c[0], c[1]};
     case CorrectionForm::kDiffuseBySun:
       return {c[2], 1.0, c[0], c[0], c[1]};
+    case CorrectionForm::kDiffuseByClose:
+      return {c[2], 1.0, c[0], c[0], 0.0, c[1]};
+    case CorrectionForm::kDiffuseBySunAndClose:
+      return {c[3], 1.0, c[0], c[0], c[1], c[2]};
     case CorrectionForm::kParts:
       break;
   }
@@ -111,7 +121,8 @@ std::optional<Correction> fit_if(CorrectionForm form, std::span<const LightParts
   const Correction c = correction_of(form, equations.solve(terms));
   for (const double factor : {c.direct, c.sky, c.scattered})
     if (!(factor >= 0.0 && std::isfinite(factor))) return {};
-  if (!std::isfinite(c.offset_w_m2) || !std::isfinite(c.sunlit_w_m2)) return {};
+  if (!std::isfinite(c.offset_w_m2) || !std::isfinite(c.sunlit_w_m2) || !std::isfinite(c.close_w_m2))
+    return {};
   return c;
 }
 
@@ -119,8 +130,8 @@ std::optional<Correction> fit_if(CorrectionForm form, std::span<const LightParts
 
 LightParts corrected(const LightParts& light, const Correction& c) {
   LightParts after{c.direct * light.direct_w_m2, c.sky * light.sky_w_m2, c.scattered * light.scattered_w_m2,
-                   light.sunlit};
-  const double more = c.offset_w_m2 + c.sunlit_w_m2 * light.sunlit;
+                   light.sunlit, light.close};
+  const double more = c.offset_w_m2 + c.sunlit_w_m2 * light.sunlit + c.close_w_m2 * light.close;
   const double before = after.diffuse(), diffuse = std::max(0.0, before + more);
   if (before > 0.0) {
     after.sky_w_m2 *= diffuse / before;
@@ -131,8 +142,9 @@ LightParts corrected(const LightParts& light, const Correction& c) {
   return after;
 }
 
-ElementLight corrected(const ElementLight& light, double sunlit_fraction, const Correction& c) {
-  const LightParts before = parts_of(light, sunlit_fraction), after = corrected(before, c);
+ElementLight corrected(const ElementLight& light, double sunlit_fraction, const Correction& c,
+                       double close_cover) {
+  const LightParts before = parts_of(light, sunlit_fraction, close_cover), after = corrected(before, c);
   const auto scale = [](double to, double from) { return from > 0.0 ? to / from : 0.0; };
   const double sky = scale(after.sky_w_m2, before.sky_w_m2),
                scattered = scale(after.scattered_w_m2, before.scattered_w_m2);

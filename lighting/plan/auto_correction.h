@@ -16,20 +16,25 @@ struct Correction {
   // What an element wholly in the sun gets more of diffuse light: its side of the sky is open and its
   // neighbours are lit.
   double sunlit_w_m2 = 0;
+  // What the closest leaves take or give per share of the view of both faces that they fill.
+  double close_w_m2 = 0;
 };
 
 enum class CorrectionForm {
-  kTotal,         // one factor for all parts
-  kParts,         // a factor for each part
-  kDiffuse,       // the direct light is right: one factor for all diffuse light
-  kDiffuseParts,  // the same with a factor each for sky and scattered light
-  kDiffuseBySun,  // one factor for all diffuse light and the sunlit term: needs sunlit fractions that are
-                  // right for each element
+  kTotal,           // one factor for all parts
+  kParts,           // a factor for each part
+  kDiffuse,         // the direct light is right: one factor for all diffuse light
+  kDiffuseParts,    // the same with a factor each for sky and scattered light
+  kDiffuseBySun,    // one factor for all diffuse light and the sunlit term: needs sunlit fractions that are
+                    // right for each element
+  kDiffuseByClose,  // one factor for all diffuse light and the term of the closest leaves
+  kDiffuseBySunAndClose  // the two together
 };
 
 LightParts corrected(const LightParts& light, const Correction& correction);
 // Scales both faces alike; what has no diffuse light to scale gets the offset as scattered light.
-ElementLight corrected(const ElementLight& light, double sunlit_fraction, const Correction& correction);
+ElementLight corrected(const ElementLight& light, double sunlit_fraction, const Correction& correction,
+                       double close_cover = 0);
 
 // Least squares, each probe with its weight. Nothing where a factor would be negative or the probes do not
 // tell.

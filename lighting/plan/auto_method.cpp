@@ -73,7 +73,7 @@ LightMap answer_by_tolerance(AutoRun& run, const ProbePlan& plan, const RunContr
 // small differences.
 ProbePlan usual_plan(const AutoOptions& options, const SceneSizes& sizes, std::size_t bands) {
   if (options.measure != AutoMeasure::kElementRms) return {};
-  constexpr double kShareOfCost = 0.2, kUsualPixel = 0.1;
+  constexpr double kShareOfCost = 0.12, kUsualPixel = 0.1;
   constexpr int kFewest = 200, kMost = 1500;
   GridOptions grid;
   grid.directions = 8;

@@ -67,10 +67,10 @@ std::vector<std::uint32_t> all_of(const ErrorSample& s) {
 
 }  // namespace
 
-LightParts parts_of(const ElementLight& e, double sunlit_fraction) {
+LightParts parts_of(const ElementLight& e, double sunlit_fraction, double close_cover) {
   const auto sum = [](float a, float b) { return static_cast<double>(a) + b; };
   return {sum(e.front.direct_w_m2, e.back.direct_w_m2), sum(e.front.sky_w_m2, e.back.sky_w_m2),
-          sum(e.front.scattered_w_m2, e.back.scattered_w_m2), sunlit_fraction};
+          sum(e.front.scattered_w_m2, e.back.scattered_w_m2), sunlit_fraction, close_cover};
 }
 
 LightParts parts_of(const ProbeBand& p) {

@@ -22,10 +22,11 @@ namespace sunfleck {
 struct LightParts {
   double direct_w_m2 = 0, sky_w_m2 = 0, scattered_w_m2 = 0;
   double sunlit = 0;  // fraction
+  double close = 0;   // of the view of both faces, filled by the closest leaves: lighting/depth/close_cover.h
   double diffuse() const { return sky_w_m2 + scattered_w_m2; }
   double total() const { return direct_w_m2 + diffuse(); }
 };
-LightParts parts_of(const ElementLight& light, double sunlit_fraction = 0);
+LightParts parts_of(const ElementLight& light, double sunlit_fraction = 0, double close_cover = 0);
 LightParts parts_of(const ProbeBand& light);
 
 struct ProbeSet {

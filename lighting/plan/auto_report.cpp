@@ -21,6 +21,7 @@ std::string to_text(const Correction& c) {
   std::string text = short_number(c.offset_w_m2) + " W m-2 + " + short_number(c.direct) + " direct + " +
                      short_number(c.sky) + " sky + " + short_number(c.scattered) + " scattered";
   if (c.sunlit_w_m2 != 0.0) text += " + " + short_number(c.sunlit_w_m2) + " W m-2 sunlit fraction";
+  if (c.close_w_m2 != 0.0) text += " + " + short_number(c.close_w_m2) + " W m-2 view of closest leaves";
   return text;
 }
 

@@ -1,6 +1,7 @@
 #include "lighting/plan/auto_run.h"
 
 #include "lighting/base/summaries.h"
+#include "lighting/depth/close_cover.h"
 #include "lighting/plan/auto_direct.h"
 #include "lighting/plan/auto_report.h"
 #include "lighting/trace/probe_path.h"
@@ -51,11 +52,28 @@ void AutoRun::probe(const ProbePlan& plan, const RunControl& control) {
 
 bool AutoRun::attempt(const Rung& rung, const RunControl& control) {
   SUNFLECK_EXPECTS(!probes_.probes.empty());
-  return take(judge().judge(rung.name(), run(rung, control), corrections_of(rung)));
+  LightMap map = run(rung, control);
+  measure_close_cover(control);
+  return take(judge().judge(rung.name(), std::move(map), corrections_of(rung)));
 }
 
 Judge AutoRun::judge() const {
-  return {scene_.forest, scene_.index, optics_, probes_, groups_ ? &*groups_ : nullptr, options()};
+  return {scene_.forest,
+          scene_.index,
+          optics_,
+          probes_,
+          groups_ ? &*groups_ : nullptr,
+          options(),
+          close_cover_ ? std::span<const float>(*close_cover_) : std::span<const float>{}};
+}
+
+void AutoRun::measure_close_cover(const RunControl& control) {
+  if (close_cover_) return;
+  const StageTimer timer(times_, "closest leaves");
+  close_cover_ = scene_.store.get<std::vector<float>>(
+      PreparedKey("close cover"), control,
+      [&] { return std::make_shared<const std::vector<float>>(close_cover(scene_.forest, control)); },
+      [](const std::vector<float>& cover) { return cover.size() * sizeof(float); });
 }
 
 // Two standard errors of the mean square down from what was measured.
@@ -156,9 +174,10 @@ LightRequest AutoRun::asked_of(const Rung& rung) const {
 }
 
 std::vector<CorrectionForm> AutoRun::corrections_of(const Rung& rung) const {
-  if (rung.kind == RungKind::kGrid) return {CorrectionForm::kTotal, CorrectionForm::kParts};
   if (rung.kind == RungKind::kReference) return {};
-  return {CorrectionForm::kDiffuse, CorrectionForm::kDiffuseParts, CorrectionForm::kDiffuseBySun};
+  if (rung.kind == RungKind::kGrid && has_sun_) return {CorrectionForm::kTotal, CorrectionForm::kParts};
+  return {CorrectionForm::kDiffuse, CorrectionForm::kDiffuseParts, CorrectionForm::kDiffuseBySun,
+          CorrectionForm::kDiffuseByClose, CorrectionForm::kDiffuseBySunAndClose};
 }
 
 // Keeps the better attempt; true if it will do.

@@ -52,6 +52,7 @@ class AutoRun {
   bool may_not_fit(const GridOptions& grid) const;
   LightRequest asked_of(const Rung& rung) const;
   std::vector<CorrectionForm> corrections_of(const Rung& rung) const;
+  void measure_close_cover(const RunControl& control);
   bool take(Attempt attempt);
   Judge judge() const;
   bool may_be_within(const Attempt& attempt) const;
@@ -73,6 +74,7 @@ class AutoRun {
   LightSpread spread_;
   std::shared_ptr<const SunExposure> exposure_;
   double exposure_pixel_m_ = 0;
+  std::shared_ptr<const std::vector<float>> close_cover_;
   Provenance times_;  // of all attempts
   std::optional<Attempt> best_;
   double last_error_ = 0;

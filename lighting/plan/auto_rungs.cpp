@@ -15,16 +15,16 @@ constexpr double kSunErrorOfSums = 0.2;  // where errors of single elements aver
 constexpr double kErrorAtOneSide = 1.9;
 constexpr double kFinestPixel = 0.02, kCoarsestPixel = 0.6;
 // Of what grids miss of diffuse light: see auto_rungs.h.
-constexpr double kPartAtFineCells = 0.30, kPartPerOctave = 0.075, kFineCell = 0.02;
-constexpr double kEvenPart = 0.65, kClumped = 1.3;  // even leaves: that part of it
+constexpr double kPartAtFineCells = 0.27, kPartPerOctave = 0.045, kFineCell = 0.02;
+constexpr double kEvenPart = 0.62, kClumped = 1.3;  // even leaves: that part of it
 constexpr double kLocal = 0.02;
 // Of diffuse light by links, relative to its mean; and the reference's error of all light at one ray.
 constexpr double kErrorOf16Links = 0.10, kLinksExponent = 0.35, kErrorOfOneRay = 0.75;
 // Rungs predicted to miss the aim by more are not tried, nor any that is predicted to miss it once a grid's
 // true error has mended the predictions.
-constexpr double kMostMargin = 1.1, kEvenChance = 0.9;
+constexpr double kMostMargin = 1.1;
 
-double of_directions(int directions) { return directions >= 26 ? 0.0 : directions >= 14 ? 0.12 : 0.24; }
+double of_directions(int directions) { return directions >= 26 ? 0.0 : directions >= 14 ? 0.12 : 0.23; }
 
 double grid_error(const SceneSizes& s, const LightSpread& spread, const GridOptions& o) {
   const double cell_m = o.cell_m > 0.0 ? o.cell_m : s.grid_cell_m;
@@ -189,10 +189,9 @@ int best_rung(const std::vector<Rung>& rungs, double aim, double worse) {
     const bool grid = rungs[i].kind == RungKind::kGrid || rungs[i].kind == RungKind::kDrawnGrid;
     const double error = rungs[i].predicted_error * (grid ? worse : 1.0);
     if (error > (grid && worse != 1.0 ? 1.0 : kMostMargin) * aim) continue;
-    // Predictions are off by about a tenth: a miss has a chance of 1/2 a tenth below the
-    // aim (what the probes say is uncertain too), of 1/9 two tenths below. It
-    // costs more than twice as much again.
-    const double miss = 1.0 / (1.0 + std::pow(kEvenChance * aim / std::max(error, 1e-9), 20.0));
+    // Predictions and what the probes say are each off by about a tenth: a miss has a chance of 1/2 at the
+    // aim, of 1/4 a tenth below, of 1/15 two tenths below. It costs more than twice as much again.
+    const double miss = 1.0 / (1.0 + std::pow(aim / std::max(error, 1e-9), 12.0));
     const double expected_s = rungs[i].predicted_s * (1.0 + 2.5 * miss);
     if (expected_s < least) least = expected_s, best = static_cast<int>(i);
   }

@@ -3,9 +3,10 @@
 //
 // Error of the diffuse light of `grid` with the sun drawn and a correction: a part k of the spread that
 // diffuse light has over the elements, k by the width of a cell against a tree and by the directions, smaller
-// where leaves are spread evenly; measured on crowns, L-system trees and stands of 1,500 to 500,000 elements,
-// PAR and NIR, good to about a quarter. Error of direct light drawn: see sun_pixel_sides(). Of `links`: by
-// the number of links. All in shares of the mean light.
+// where leaves are spread evenly; measured on crowns and L-system trees of 4,000 to 100,000 elements, PAR
+// and NIR (tests/bench/plan/rungs_bench.cpp), good to about a tenth, a quarter where shoots are large. Error
+// of direct light drawn: see sun_pixel_sides(). Of `links`: by the number of links. All in shares of the mean
+// light.
 #pragma once
 
 #include <string>

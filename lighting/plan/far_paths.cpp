@@ -157,13 +157,14 @@ std::vector<std::vector<PathEvent>> PathPlan::paths_of(std::size_t element, std:
   tracer.watch(&notebook);
   const trace::SurfaceSampler surface(scene_.receivers(), element);
   std::vector<std::vector<PathEvent>> paths;
+  trace::PathLight ignored(optics_.band_count());
   for (int k = 0; k < options_.paths_per_face; ++k)
     for (const bool front : {true, false}) {
       RandomStream random(mix_seed(mix_seed(options_.seed, kOwnStreams), static_cast<std::uint64_t>(k)),
                           2 * number + (front ? 0 : 1), RandomPurpose::kProbePaths);
       const trace::SurfacePoint at = surface.sample(random);
       const Vec3 direction = trace::cosine_direction(front ? at.normal : -at.normal, random);
-      tracer.follow(at.position_m, direction, surface.start(at, front), random);
+      tracer.follow(at.position_m, direction, surface.start(at, front), random, ignored);
       paths.push_back(notebook.take());
     }
   return paths;

@@ -1,7 +1,8 @@
 #include "lighting/trace/probe_light.h"
 
-#include <algorithm>
+#include <array>
 
+#include "lighting/trace/low_discrepancy.h"
 #include "lighting/trace/probe_path.h"
 #include "lighting/trace/probe_sun.h"
 #include "lighting/trace/surface_sampler.h"
@@ -24,17 +25,13 @@ void check_options(const ProbeOptions& o) {
   check(o.sun_rays, "sun_rays");
 }
 
-// Mean of independent values and the variance of that mean.
-struct Tally {
-  double sum = 0, squares = 0;
-  void add(double v) {
-    sum += v;
-    squares += v * v;
-  }
-  double variance_of_mean(int n) const {
-    return std::max(0.0, squares - sum * sum / n) / (static_cast<double>(n) * (n - 1.0));
-  }
-};
+// Rays come in two sets, each spread evenly by a sequence of its own: less noise than rays that know nothing
+// of each other, and the sets' difference tells how much.
+constexpr int kSets = 2;
+int rays_in_set(int rays, int set) { return (rays + kSets - 1 - set) / kSets; }
+
+// Of the mean of two independent values, unbiased.
+double variance_of_mean(double a, double b) { return 0.25 * (a - b) * (a - b); }
 
 class Prober {
  public:
@@ -45,7 +42,8 @@ class Prober {
         options_(options),
         control_(control),
         bands_(optics.band_count()),
-        paths_(scene.receivers().forest(), scene.rays(), optics, light) {}
+        paths_(scene.receivers().forest(), scene.rays(), optics, light),
+        sets_{PathLight(bands_), PathLight(bands_)} {}
 
   ProbeLight probe(std::size_t element, std::uint64_t number) {
     ProbeLight answer;
@@ -61,36 +59,53 @@ class Prober {
  private:
   void add_sun(const SurfaceSampler& surface, std::uint64_t number, ProbeLight& answer) const {
     RandomStream random(options_.seed, number, RandomPurpose::kProbeSun);
-    const SunOnSurface sun =
-        sun_on_surface(scene_.rays(), surface, light_, options_.sun_rays, SunPoints::kIndependent, random);
-    answer.sunlit_fraction = sun.seen;
-    for (std::size_t b = 0; b < bands_; ++b) {
-      const double beam = light_.bands[b].beam_normal_w_m2;
-      answer.bands[b].front.direct_w_m2 = beam * sun.front;
-      answer.bands[b].back.direct_w_m2 = beam * sun.back;
-      answer.bands[b].direct_variance_w2_m4 += beam * beam * sun.variance;
+    std::array<SunOnSurface, kSets> sets;
+    for (int i = 0; i < kSets; ++i)
+      sets[i] = sun_on_surface(scene_.rays(), surface, light_, rays_in_set(options_.sun_rays, i),
+                               SunPoints::kSpread, random);
+    const auto& [a, b] = sets;
+    answer.sunlit_fraction = 0.5 * (a.seen + b.seen);
+    const double variance = variance_of_mean(a.front + a.back, b.front + b.back);
+    for (std::size_t k = 0; k < bands_; ++k) {
+      const double beam = light_.bands[k].beam_normal_w_m2;
+      answer.bands[k].front.direct_w_m2 = beam * 0.5 * (a.front + b.front);
+      answer.bands[k].back.direct_w_m2 = beam * 0.5 * (a.back + b.back);
+      answer.bands[k].direct_variance_w2_m4 += beam * beam * variance;
     }
   }
 
   void add_face(const SurfaceSampler& surface, bool front, std::uint64_t number, ProbeLight& answer) {
-    const int paths = options_.paths_per_face;
-    std::vector<Tally> tallies(bands_);
+    const std::uint64_t face = 2 * number + (front ? 0 : 1);
+    for (int i = 0; i < kSets; ++i) follow_set(surface, front, face, i);
+    for (std::size_t b = 0; b < bands_; ++b) {
+      ProbeFace& light = front ? answer.bands[b].front : answer.bands[b].back;
+      light.sky_w_m2 = 0.5 * (sets_[0].sky_w_m2[b] + sets_[1].sky_w_m2[b]);
+      light.scattered_w_m2 = 0.5 * (sets_[0].scattered_w_m2[b] + sets_[1].scattered_w_m2[b]);
+      answer.bands[b].diffuse_variance_w2_m4 +=
+          variance_of_mean(sets_[0].sky_w_m2[b] + sets_[0].scattered_w_m2[b],
+                           sets_[1].sky_w_m2[b] + sets_[1].scattered_w_m2[b]);
+    }
+  }
+
+  // The mean of a set of paths.
+  void follow_set(const SurfaceSampler& surface, bool front, std::uint64_t face, int set) {
+    PathLight& mean = sets_[static_cast<std::size_t>(set)];
+    mean.clear();
+    const int paths = rays_in_set(options_.paths_per_face, set);
+    const ScrambledPoints points(mix_seed(options_.seed, kSets * face + static_cast<std::uint64_t>(set)));
     for (int k = 0; k < paths; ++k) {
       if (k % 8 == 0) control_.check();
-      RandomStream random(mix_seed(options_.seed, static_cast<std::uint64_t>(k)),
-                          2 * number + (front ? 0 : 1), RandomPurpose::kProbePaths);
-      const SurfacePoint at = surface.sample(random);
-      const Vec3 direction = cosine_direction(front ? at.normal : -at.normal, random);
-      const PathLight path = paths_.follow(at.position_m, direction, surface.start(at, front), random);
-      for (std::size_t b = 0; b < bands_; ++b) {
-        ProbeFace& face = front ? answer.bands[b].front : answer.bands[b].back;
-        face.sky_w_m2 += path.sky_w_m2[b] / paths;
-        face.scattered_w_m2 += path.scattered_w_m2[b] / paths;
-        tallies[b].add(path.sky_w_m2[b] + path.scattered_w_m2[b]);
-      }
+      const CubePoint x = points(static_cast<std::uint32_t>(k));
+      const SurfacePoint at = surface.sample_at(x[2], x[3], x[4]);
+      // A needle turned any way sends its cosine-distributed rays anywhere alike.
+      const Vec3 direction = surface.is_shoot()
+                                 ? any_direction(x[0], x[1])
+                                 : cosine_direction(front ? at.normal : -at.normal, x[0], x[1]);
+      RandomStream random(mix_seed(options_.seed, static_cast<std::uint64_t>(kSets * k + set)), face,
+                          RandomPurpose::kProbePaths);
+      paths_.follow(at.position_m, direction, surface.start(at, front), random, mean);
     }
-    for (std::size_t b = 0; b < bands_; ++b)
-      answer.bands[b].diffuse_variance_w2_m4 += tallies[b].variance_of_mean(paths);
+    mean.scale(1.0 / paths);
   }
 
   const ProbeScene& scene_;
@@ -99,6 +114,7 @@ class Prober {
   const RunControl& control_;
   const std::size_t bands_;
   PathTracer paths_;
+  std::array<PathLight, kSets> sets_;
 };
 
 }  // namespace

@@ -34,6 +34,16 @@ bool has_beam(const Illumination& light) {
                                           [](const BandLight& b) { return b.beam_normal_w_m2 > 0.0; });
 }
 
+void PathLight::clear() {
+  std::ranges::fill(sky_w_m2, 0.0);
+  std::ranges::fill(scattered_w_m2, 0.0);
+}
+
+void PathLight::scale(double factor) {
+  for (double& w : sky_w_m2) w *= factor;
+  for (double& w : scattered_w_m2) w *= factor;
+}
+
 PathTracer::PathTracer(const Forest& forest, const RayScene& rays, const OpticsTable& optics,
                        const Illumination& light)
     : forest_(forest),
@@ -51,26 +61,25 @@ PathTracer::PathTracer(const Forest& forest, const RayScene& rays, const OpticsT
 
 // E = pi * mean radiance over cosine-distributed directions; a surface that gives back B has radiance B / pi,
 // so every surface met stands for its B = r E(this side) + t E(other side), and so on from there.
-PathLight PathTracer::follow(Vec3 origin_m, Vec3 direction, RayStart from, RandomStream& random) {
-  PathLight light(optics_.band_count());
+void PathTracer::follow(Vec3 origin_m, Vec3 direction, RayStart from, RandomStream& random,
+                        PathLight& light) {
   std::fill(weight_.begin(), weight_.end(), 1.0);
   for (int bounce = 0; bounce < kMostBounces; ++bounce) {
     const RayHit hit = rays_.closest_hit(origin_m, direction, 0.0, from);
     if (hit.kind == HitKind::kSky) {
       add_sky(direction, bounce == 0 ? light.sky_w_m2 : light.scattered_w_m2);
-      return light;
+      return;
     }
-    if (hit.kind == HitKind::kGround && !hit.front) return light;  // the dark below
+    if (hit.kind == HitKind::kGround && !hit.front) return;  // the dark below
     if (watch_) watch_->met(hit, direction, weight_);
     look_up(hit);
     if (any_beam_) add_sun(hit, random, light.scattered_w_m2);
-    if (!any(met_.reflect) && !any(met_.pass)) return light;
+    if (!any(met_.reflect) && !any(met_.pass)) return;
     const bool reflected = chooses_reflection(random);
-    if (!survives(random)) return light;
+    if (!survives(random)) return;
     leave(hit, reflected, random, direction, from);
     origin_m = hit.on_original_m;
   }
-  return light;
 }
 
 void PathTracer::add_sky(const Vec3& direction, std::vector<double>& to) const {

@@ -15,6 +15,8 @@ namespace sunfleck::trace {
 struct PathLight {
   std::vector<double> sky_w_m2, scattered_w_m2;
   explicit PathLight(std::size_t bands) : sky_w_m2(bands), scattered_w_m2(bands) {}
+  void clear();
+  void scale(double factor);
 };
 
 // What the side of a surface that a path met gives back, per band: of the light on that side, and of the
@@ -40,8 +42,8 @@ class PathTracer {
   PathTracer(const Forest& forest, const RayScene& rays, const OpticsTable& optics,
              const Illumination& light);
 
-  // From a point of a face into a cosine-distributed direction.
-  PathLight follow(Vec3 origin_m, Vec3 direction, RayStart from, RandomStream& random);
+  // From a point of a face into a cosine-distributed direction; adds what the path brings.
+  void follow(Vec3 origin_m, Vec3 direction, RayStart from, RandomStream& random, PathLight& light);
   // From now on; changes no path. Must outlive the paths that it watches; null: nobody.
   void watch(PathWatch* watch) { watch_ = watch; }
 

@@ -5,19 +5,17 @@
 //
 //   equal_error_bench [scenes [bands [tolerance [repeats]]]]
 //
-// scenes: names of lighting/bench/bench_scenes.h and "stand" (49 open-grown clumped crowns on a hectare,
-// 490,000 leaves), separated by commas; bands: PAR, NIR, or both separated by a comma.
+// scenes: names of named_forest.h, separated by commas; bands: PAR, NIR, or both separated by a comma.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <sstream>
 #include <string>
 
-#include "lighting/bench/bench_scenes.h"
 #include "lighting/bench/error_against_time.h"
 #include "lighting/bench/stopwatch.h"
 #include "lighting/plan/auto_probe.h"
-#include "tests/bench/plan/plan_scenes.h"
+#include "tests/bench/plan/named_forest.h"
 
 namespace sunfleck {
 namespace {
@@ -146,17 +144,6 @@ void compare(const Forest& forest, LightRequest request, double tolerance, int r
   std::fflush(stdout);
 }
 
-Forest forest_named(const std::string& name) {
-  if (name == "stand") {
-    Forest forest = hectare();
-    forest.name = name;
-    return forest;
-  }
-  return choose_scenes(bench_scenes(1, std::filesystem::path(SUNFLECK_SOURCE_DIR) / "configs/species"), name)
-      .front()
-      .make({});
-}
-
 }  // namespace
 }  // namespace sunfleck
 
@@ -169,7 +156,7 @@ int main(int count, char** words) {
   std::printf("tolerance %.2f, %s, CPU seconds of one core, medians of %d; repeats below 3: no reference\n",
               tolerance, word(2, "PAR").c_str(), repeats);
   for (std::string name; std::getline(names, name, ',');) {
-    const Forest forest = forest_named(name);
+    const Forest forest = named_forest(name);
     compare(forest, bench_light(forest, word(2, "PAR")), tolerance, repeats);
   }
   return 0;

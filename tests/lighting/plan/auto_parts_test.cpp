@@ -127,6 +127,29 @@ TEST(Correction, FindsTheFactorsOfAnExactRelation) {
     EXPECT_NEAR((*held_out)[i].total(), r.truth[i].total(), 1e-9);
 }
 
+// truth = 3 + 0.8 diffuse + 12 sunlit fraction - 20 view of the closest leaves, exactly, and as exactly where
+// the correction is applied to an element.
+TEST(Correction, FindsWhatSunAndClosestLeavesChange) {
+  Regression r;
+  RandomStream random = stream(4);
+  for (int i = 0; i < 40; ++i) {
+    LightParts e{random.uniform(0, 100), random.uniform(40, 90), random.uniform(5, 20)};
+    e.sunlit = random.uniform();
+    e.close = random.uniform(0, 1.5);
+    r.estimate.push_back(e);
+    r.truth.push_back({e.direct_w_m2, 3 + 0.8 * e.diffuse() + 12 * e.sunlit - 20 * e.close, 0});
+    r.weight.push_back(1.0);
+  }
+  const auto c = fit(CorrectionForm::kDiffuseBySunAndClose, r.estimate, r.truth, r.weight);
+  ASSERT_TRUE(c);
+  EXPECT_NEAR(c->offset_w_m2, 3.0, 1e-8);
+  EXPECT_NEAR(c->sky, 0.8, 1e-10);
+  EXPECT_NEAR(c->sunlit_w_m2, 12.0, 1e-8);
+  EXPECT_NEAR(c->close_w_m2, -20.0, 1e-8);
+  const ElementLight light{{10, 40, 5}, {0, 20, 5}, 0};
+  EXPECT_NEAR(parts_of(corrected(light, 0.5, *c, 1.0)).total(), 10 + 3 + 0.8 * 70 + 6 - 20, 1e-4);
+}
+
 TEST(Correction, LeavesOutAPartThatIsNotThere) {
   Regression r = exact_parts();
   for (std::size_t i = 0; i < r.truth.size(); ++i) r.estimate[i].direct_w_m2 = r.truth[i].direct_w_m2 = 0.0;
