@@ -6,13 +6,6 @@
 #include "lighting/trace/surface_sampler.h"
 
 namespace sunfleck {
-namespace {
-
-RayStart leaving(const RayHit& hit, bool this_side = true) {
-  return {hit.kind, this_side == hit.front, hit.instance, hit.local};
-}
-
-}  // namespace
 
 Vec3 Shader::radiance(const RayHit& hit, const Vec3& direction, PathSamples& numbers) const {
   if (hit.kind == HitKind::kSky) return parts_.light.background(direction);
@@ -22,7 +15,7 @@ Vec3 Shader::radiance(const RayHit& hit, const Vec3& direction, PathSamples& num
 }
 
 std::size_t Shader::element_of(const RayHit& hit) const {
-  return parts_.index.first_element(hit.instance) + parts_.scene.original_element(hit.instance, hit.local);
+  return parts_.index.first_element(hit.instance) + parts_.scene.original_element(hit);
 }
 
 const ElementLight& Shader::light_of(const RayHit& hit) const { return parts_.map.elements[element_of(hit)]; }
@@ -74,7 +67,7 @@ Vec3 Shader::leaf_lit(const RayHit& hit, const Light& light) const {
 Vec3 Shader::irradiance(const RayHit& hit, PathSamples& numbers) const {
   const auto [sun_x, sun_y, x, y] = numbers.next();
   const Vec3 direction = trace::cosine_direction(hit.normal, x, y);
-  const RayHit met = parts_.scene.closest_hit(hit.on_original_m, direction, leaving(hit));
+  const RayHit met = parts_.scene.closest_hit(hit.on_original_m, direction, start_from(hit, true));
   Surface white;
   white.normal = hit.normal;
   white.reflect = Vec3(1.0);
@@ -97,7 +90,7 @@ Vec3 Shader::sun_scattered(const RayHit& hit, const Surface& surface, const Vec3
   const Vec3 to_sun = parts_.light.towards_sun(number);
   const double cosine = glm::dot(hit.normal, to_sun);
   const Vec3 share = scattering(surface, to_sun, to_viewer) * cosine_factor(surface, to_sun);
-  if (share == Vec3(0.0) || parts_.scene.occluded(hit.on_original_m, to_sun, leaving(hit, cosine > 0.0)))
+  if (share == Vec3(0.0) || parts_.scene.occluded(hit.on_original_m, to_sun, start_from(hit, cosine > 0.0)))
     return Vec3(0.0);
   return share * parts_.light.beam_w_m2();
 }

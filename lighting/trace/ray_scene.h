@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "sim/base/run_control.h"
 #include "sim/base/vec.h"
@@ -24,7 +25,8 @@ struct RayHit {
   // The same point on the original where a wrapped copy was hit: a ray goes on from here with a RayStart of
   // the same kind, instance and local.
   Vec3 on_original_m{0};
-  Vec3 normal{0};  // unit, of the surface hit, turned towards the ray's origin
+  Vec3 normal{0};         // unit, of the surface hit, turned towards the ray's origin
+  std::uint8_t cast = 0;  // of the ray
 };
 
 // The surface a ray starts on, so that it does not hit the place it leaves. kSky: none. Shoots are no
@@ -33,7 +35,12 @@ struct RayStart {
   HitKind kind = HitKind::kSky;
   bool front = true;  // wood: from its outer side
   std::uint32_t instance = 0, local = 0;
+  std::uint8_t cast = 0;  // which of Options::casts the ray meets
 };
+// From where a ray met something, to the side it came from or to the other.
+inline RayStart start_from(const RayHit& hit, bool to_side_met) {
+  return {hit.kind, to_side_met == hit.front, hit.instance, hit.local, hit.cast};
+}
 
 // An Embree scene over the instances of a forest. Immutable; all calls are const and safe from many threads.
 // `forest` must outlive it. Shoots are small clouds of needles: a ray flies through their cylinder and meets
@@ -52,6 +59,10 @@ class RayScene {
     double expected_rays = 0;
     // From this number of trees on a forest that does not repeat is kept in rows of 24 bytes per tree.
     std::size_t table_from = 50'000;
+    // Several plants for each place, of which a ray meets one: casts[c][i] stands where instance i does for
+    // rays of cast c, in place of the instance's own prototype. For pictures whose samples look at different
+    // prototypes of one tree, which share their structures. None: one cast, of the instances' prototypes.
+    std::vector<std::vector<PrototypeId>> casts{};
   };
   // Throws Error(kCancelled) when stopped while building.
   RayScene(const Forest& forest, const Options& options, const RunControl& control = {});
