@@ -7,6 +7,7 @@
 
 #include "lighting/render/render.h"
 #include "lighting/shade/detail_rows.h"
+#include "lighting/shade/prune.h"
 #include "sim/base/error.h"
 #include "sim/base/parallel.h"
 
@@ -26,14 +27,23 @@ struct Ball {
 struct Plant {
   Ball ball;  // in its own frame
   double leaf_side_m = 0;
+  Detail coarsest = Detail::kExplicit;
 };
+
+Detail coarsest_of(const Prototype& prototype) {
+  Detail coarsest = Detail::kExplicit;
+  for (std::size_t k = 0; k < kForcible.size(); ++k)
+    if (static_cast<double>(prototype.foliage.size()) * kPruneLevels[k + 1] >= kFewestLeaves)
+      coarsest = kForcible[k];
+  return coarsest;
+}
 
 std::vector<Plant> plants_of(const Forest& forest) {
   std::vector<Plant> plants;
   for (const Prototype& p : forest.prototypes) {
     const Box box = prototype_bounds(p);
-    plants.push_back(
-        {box.empty() ? Ball{} : Ball{box.centre(), 0.5 * glm::length(box.size())}, leaf_side_m(p.foliage)});
+    plants.push_back({box.empty() ? Ball{} : Ball{box.centre(), 0.5 * glm::length(box.size())},
+                      leaf_side_m(p.foliage), coarsest_of(p)});
   }
   return plants;
 }
@@ -100,6 +110,38 @@ double cast_number(std::size_t tree, int cast) {
   const double number = detail_choice(kChoiceSeed, tree) + static_cast<double>(cast) / kDetailCasts;
   return number - std::floor(number);
 }
+
+class Chooser {
+ public:
+  Chooser(const Forest& forest, const Camera& camera, const Illumination& light, double tolerance)
+      : forest_(forest),
+        plants_(plants_of(forest)),
+        table_(measured_detail()),
+        footprints_(forest, camera, light),
+        tolerance_(tolerance) {}
+
+  // All casts of one tree; those it does not set stay explicit.
+  void choose(std::size_t tree, TreeDetails& details) const {
+    const Instance& at = forest_.instances[tree];
+    const Plant& plant = plants_[at.prototype.value];
+    if (plant.coarsest == Detail::kExplicit) return;
+    const double pixel_m =
+        footprints_.finest_m({world_from_tree(at, plant.ball.centre_m), at.scale * plant.ball.radius_m});
+    const double leaf_m = at.scale * plant.leaf_side_m;
+    if (!(leaf_m > 0.0 && pixel_m > 0.0)) return;
+    for (int c = 0; c < kDetailCasts; ++c) {
+      const Detail cheapest = table_.choose(pixel_m / leaf_m, tolerance_, cast_number(tree, c));
+      details.casts[static_cast<std::size_t>(c)][tree] = std::min(plant.coarsest, cheapest);
+    }
+  }
+
+ private:
+  const Forest& forest_;
+  std::vector<Plant> plants_;
+  DetailTable table_;
+  Footprints footprints_;
+  double tolerance_;
+};
 
 TreeDetails all_at(Detail detail, std::size_t trees) {
   return {std::vector<std::vector<Detail>>(kDetailCasts, std::vector<Detail>(trees, detail))};
@@ -169,24 +211,12 @@ TreeDetails choose_details(const Forest& forest, const Camera& camera, const Ill
   if (detail.mode == DetailMode::kForced)
     return detail.forced == Detail::kExplicit ? TreeDetails{}
                                               : all_at(detail.forced, forest.instances.size());
-  const std::vector<Plant> plants = plants_of(forest);
-  const DetailTable table(measured_detail());
-  const Footprints footprints(forest, camera, light);
+  const Chooser chooser(forest, camera, light, detail.tolerance);
   TreeDetails details = all_at(Detail::kExplicit, forest.instances.size());
-  for_each_chunk(
-      forest.instances.size(), 1024, control, "choosing detail", [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-          const Instance& at = forest.instances[i];
-          const Plant& plant = plants[at.prototype.value];
-          const double leaf_m = at.scale * plant.leaf_side_m;
-          const double pixel_m =
-              footprints.finest_m({world_from_tree(at, plant.ball.centre_m), at.scale * plant.ball.radius_m});
-          if (!(leaf_m > 0.0 && pixel_m > 0.0)) continue;
-          for (int c = 0; c < kDetailCasts; ++c)
-            details.casts[static_cast<std::size_t>(c)][i] =
-                table.choose(pixel_m / leaf_m, detail.tolerance, cast_number(i, c));
-        }
-      });
+  for_each_chunk(forest.instances.size(), 1024, control, "choosing detail",
+                 [&](std::size_t begin, std::size_t end) {
+                   for (std::size_t i = begin; i < end; ++i) chooser.choose(i, details);
+                 });
   return all_explicit(details) ? TreeDetails{} : details;
 }
 
