@@ -68,7 +68,7 @@ void compare(const Forest& forest, const OpticsTable& optics, double tree_px, in
       "sample, built in %.1f s\n",
       tree_px, sharp.width_px, sharp.height_px, samples, all.ray_ns, all.traced_ns, all.mapped_ns,
       all.build_s);
-  for (const char* word : {"auto", "pruned_4", "pruned_16", "pruned_64"}) {
+  for (const char* word : {"auto", "pruned_16", "pruned_64"}) {
     request.detail = picture_detail_named(word, "bench");
     const Costs c = costs_of(forest, optics, map, request);
     const test::DetailError e =

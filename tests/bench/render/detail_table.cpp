@@ -1,5 +1,5 @@
 // The table that pictures choose levels of detail by, measured anew (lighting/shade/detail_rows.cpp):
-//   lighting_render_detail_table [paths per picture [band [tree ...]]]
+//   lighting_render_detail_table [paths per picture [band [footprint [tree ...]]]]
 // For each tree, footprint in leaf sides and level: RMS error and bias of the path-traced picture in units of
 // its white, and CPU time per camera ray and its sun ray. At the end the rows in their form as code: the
 // worst tree, the mean cost. Trees: latin names (30 cm DBH) or sphere_100k. NIR, where leaves are brightest,
@@ -65,11 +65,13 @@ int main(int argc, char** argv) {
   using namespace sunfleck;
   const double paths = argc > 1 ? std::atof(argv[1]) : 2e5;
   const std::string band = argc > 2 ? argv[2] : "NIR";
-  std::vector<std::string> trees(argv + std::min(argc, 3), argv + argc);
+  const double only = argc > 3 ? std::atof(argv[3]) : 0;
+  std::vector<std::string> trees(argv + std::min(argc, 4), argv + argc);
   if (trees.empty()) trees = {"Fagus sylvatica", "Betula pendula", "Picea abies", "sphere_100k"};
   Rows rows;
   for (const std::string& tree : trees)
-    for (const double footprint : {2.5, 5.0, 10.0, 20.0, 40.0}) measure(tree, footprint, band, paths, rows);
+    for (const double footprint : {2.5, 5.0, 10.0, 20.0, 40.0})
+      if (only == 0 || only == footprint) measure(tree, footprint, band, paths, rows);
   for (const auto& [key, row] : rows)
     std::printf("{%s, %g, %.4f, %.0f},\n", to_string(key.first).c_str(), key.second, row.worst_rms,
                 row.cost_ns / row.trees);
