@@ -15,7 +15,7 @@ constexpr int kMostBounces = 20000;
 double brightest(const Vec3& v) { return std::max({v.x, v.y, v.z}); }
 
 RayStart leaving(const RayHit& hit, bool this_side, const Surface& surface) {
-  if (surface.is_shoot) return {};
+  if (surface.is_shoot) return {.cast = hit.cast};
   return start_from(hit, this_side);
 }
 
@@ -49,8 +49,8 @@ struct PathTracer::Path {
 PathTracer::PathTracer(const PictureScene& scene, const SurfaceTable& surfaces, const PictureLight& light)
     : scene_(scene), surfaces_(surfaces), light_(light) {}
 
-Vec3 PathTracer::radiance(Vec3 origin_m, Vec3 direction, PathSamples& samples) const {
-  Path path{origin_m, direction, {}, Vec3(1.0), 0.0};
+Vec3 PathTracer::radiance(Vec3 origin_m, Vec3 direction, PathSamples& samples, std::uint8_t cast) const {
+  Path path{origin_m, direction, {.cast = cast}, Vec3(1.0), 0.0};
   Vec3 found(0.0);
   for (int bounce = 0; bounce < kMostBounces; ++bounce) {
     const RayHit hit = scene_.closest_hit(path.origin_m, path.direction, path.from);

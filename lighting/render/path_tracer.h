@@ -19,8 +19,9 @@ class PathTracer {
   // All must outlive it. Const and safe from many threads.
   PathTracer(const PictureScene& scene, const SurfaceTable& surfaces, const PictureLight& light);
 
-  // What arrives at `origin_m` from `direction` (unit: away from the viewer), W m-2 sr-1.
-  Vec3 radiance(Vec3 origin_m, Vec3 direction, PathSamples& samples) const;
+  // What arrives at `origin_m` from `direction` (unit: away from the viewer), W m-2 sr-1. The path stays
+  // among the trees of one of the scene's casts.
+  Vec3 radiance(Vec3 origin_m, Vec3 direction, PathSamples& samples, std::uint8_t cast = 0) const;
 
  private:
   struct Path;

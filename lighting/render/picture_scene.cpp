@@ -29,7 +29,7 @@ void check_places(const Forest& forest) {
   }
 }
 
-bool takes_outline(ElementShape shape) {
+bool can_take_outline(ElementShape shape) {
   return shape == ElementShape::kParallelogram || shape == ElementShape::kDisc;
 }
 
@@ -89,14 +89,17 @@ Vec3 base_cell_point(const Forest& forest, Vec3 p) {
 
 }  // namespace
 
-PictureScene::PictureScene(const Forest& forest, const PictureLook& look, const RunControl& control)
+PictureScene::PictureScene(const Forest& forest, const PictureLook& look, const RunControl& control,
+                           const TreeDetails& details)
     : forest_(forest) {
   check_places(forest);
   load_looks(look);
+  if (!details.casts.empty()) shown_ = show_trees(forest, details, control);
   reshape_leaves();
-  originals_.resize(this->forest().prototypes.size());
   box_ = forest_bounds(forest_);
-  rays_.emplace(this->forest(), RayScene::Options{.shoots = look.shoots, .needles = look.needles}, control);
+  RayScene::Options options{.shoots = look.shoots, .needles = look.needles};
+  if (shown_) options.casts = shown_->casts;
+  rays_.emplace(this->forest(), options, control);
 }
 
 void PictureScene::load_looks(const PictureLook& look) {
@@ -111,20 +114,23 @@ void PictureScene::load_looks(const PictureLook& look) {
   }
 }
 
+bool PictureScene::takes_outline(PrototypeId shown, const FoliageElement& e) const {
+  if (shown_ && shown_->detail[shown.value] != Detail::kExplicit) return false;
+  const PrototypeId original = shown_ ? shown_->original_prototype[shown.value] : shown;
+  return can_take_outline(e.shape) && look_of(original, e.material).changes_outline();
+}
+
 void PictureScene::reshape_leaves() {
-  for (std::size_t p = 0; p < forest_.prototypes.size() && !any_outline_; ++p)
-    for (const FoliageElement& e : forest_.prototypes[p].foliage)
-      if (takes_outline(e.shape) && looks_[look_of_[first_[p] + e.material]].changes_outline()) {
-        any_outline_ = true;
-        break;
-      }
+  const std::vector<Prototype>& prototypes = forest().prototypes;
+  for (std::uint32_t p = 0; p < prototypes.size() && !any_outline_; ++p)
+    any_outline_ = std::any_of(prototypes[p].foliage.begin(), prototypes[p].foliage.end(),
+                               [&](const FoliageElement& e) { return takes_outline(PrototypeId{p}, e); });
   if (!any_outline_) return;
-  shown_ = forest_;
-  for (std::size_t p = 0; p < shown_->prototypes.size(); ++p)
-    for (FoliageElement& e : shown_->prototypes[p].foliage) {
-      const MaterialLook& look = looks_[look_of_[first_[p] + e.material]];
-      if (takes_outline(e.shape) && look.changes_outline()) e = with_outline(e, look);
-    }
+  if (!shown_) shown_ = same_trees(forest_);
+  for (std::uint32_t p = 0; p < shown_->forest.prototypes.size(); ++p)
+    for (FoliageElement& e : shown_->forest.prototypes[p].foliage)
+      if (takes_outline(PrototypeId{p}, e))
+        e = with_outline(e, look_of(shown_->original_prototype[p], e.material));
 }
 
 bool PictureScene::is_under_trees(const Vec3& p) const {
@@ -132,14 +138,13 @@ bool PictureScene::is_under_trees(const Vec3& p) const {
 }
 
 const FoliageElement& PictureScene::element_of(const RayHit& hit) const {
-  return shown_prototype(hit.instance).foliage[hit.local];
+  return shown_prototype(hit).foliage[hit.local];
 }
 
 bool PictureScene::has_outline(const RayHit& hit) const {
   if (!any_outline_ || hit.kind != HitKind::kFoliage) return false;
   const FoliageElement& e = element_of(hit);
-  return e.shape == ElementShape::kParallelogram &&
-         look_of(original_prototype(hit.instance), e.material).changes_outline();
+  return e.shape == ElementShape::kParallelogram && takes_outline(shown_id(hit), e);
 }
 
 Vec2 PictureScene::leaf_place(const RayHit& hit) const {
@@ -162,7 +167,7 @@ Vec2 PictureScene::bark_place(const RayHit& hit) const {
   const Instance& at = forest_.instances[hit.instance];
   const Vec3 p = tree_from_world(at, hit.on_original_m);
   if (hit.kind == HitKind::kWoodMesh) return static_cast<double>(at.scale) * Vec2(p.x + p.y, p.z);
-  const WoodSegment& s = shown_prototype(hit.instance).wood[hit.local];
+  const WoodSegment& s = shown_prototype(hit).wood[hit.local];
   const Vec3 axis = Vec3(s.to_m) - Vec3(s.from_m);
   const double length = glm::length(axis);
   if (!(length > 0.0)) return Vec2(0.0);
@@ -184,8 +189,7 @@ RayHit PictureScene::closest_hit(const Vec3& origin_m, const Vec3& direction, co
   double before_m = 0.0;
   for (int holes = 0; holes < kMostHoles && is_hole(hit); ++holes) {
     before_m += hit.distance_m;
-    const RayStart through{HitKind::kFoliage, !hit.front, hit.instance, hit.local};
-    hit = rays_->closest_hit(hit.on_original_m, direction, 0.0, through);
+    hit = rays_->closest_hit(hit.on_original_m, direction, 0.0, start_from(hit, false));
   }
   hit.distance_m += before_m;
   return hit;

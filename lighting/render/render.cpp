@@ -70,7 +70,8 @@ struct Stage {
         band(picture_band(optics)),
         colour(picture_colour(optics.bands()[band] == kPar ? PictureBand::kPar : PictureBand::kOther, light,
                               band)),
-        scene(forest, request.look, control),
+        scene(forest, request.look, control,
+              choose_details(forest, request.camera, light, request.detail, control)),
         sources(light, band, colour),
         surfaces(scene, optics, band, colour, request.look),
         rays(request.camera) {}
@@ -88,8 +89,8 @@ void look_through_centre(const Stage& stage, int x, int y, std::size_t pixel, Im
   if (hit.kind == HitKind::kGround) return;
   image.instance_id[pixel] = static_cast<float>(hit.instance);
   if (hit.kind != HitKind::kFoliage || map == nullptr) return;
-  const ElementLight& light = map->elements[index.first_element(hit.instance) +
-                                            stage.scene.original_element(hit.instance, hit.local)];
+  const ElementLight& light =
+      map->elements[index.first_element(hit.instance) + stage.scene.original_element(hit)];
   image.irradiance_w_m2[pixel] = light.front.total() + light.back.total();
 }
 
@@ -99,14 +100,23 @@ Image run(const Stage& stage, const RenderRequest& request, int samples_per_unit
   const LayerFill layers = [&](int x, int y, std::size_t pixel, Image& image) {
     look_through_centre(stage, x, y, pixel, image, map, index);
   };
-  return run_passes(request.camera, plan_passes(request.camera, request.effort, samples_per_unit), sample,
-                    layers, control, tiles);
+  Image image = run_passes(request.camera, plan_passes(request.camera, request.effort, samples_per_unit),
+                           sample, layers, control, tiles);
+  for (std::uint32_t i = 0; i < stage.scene.forest().instances.size(); ++i)
+    ++image.trees_at[static_cast<std::size_t>(stage.scene.detail_of(i))];
+  return image;
 }
 
 // Units of four low-discrepancy samples; with fewer than four units of them there is no error to state.
 int samples_per_unit(const RenderRequest& request) {
   if (request.effort.noise > 0.0) return kSamplesPerUnit;
   return std::clamp(request.camera.samples_per_pixel / 4, 1, kSamplesPerUnit);
+}
+
+// Samples of a pixel take the scene's casts in turn, from one of the pixel's own.
+std::uint8_t cast_of(const Stage& stage, std::uint64_t seed, std::size_t pixel, std::uint32_t sample) {
+  const std::size_t casts = stage.scene.casts();
+  return casts == 1 ? 0 : static_cast<std::uint8_t>((mix_seed(seed, pixel) + sample) % casts);
 }
 
 // The mean of one unit of samples of what `look` sees along the camera's rays. Both ways to a picture look
@@ -120,7 +130,8 @@ UnitSampler unit_sampler(const Stage& stage, const RenderRequest& request, int s
       PathSamples numbers(seed, pixel, unit, static_cast<std::uint32_t>(s));
       const auto place = numbers.next();
       const auto ray = stage.rays.through(x + place[0], y + place[1]);
-      if (ray) sum += look(*ray, numbers);
+      const auto sample = unit * static_cast<std::uint32_t>(samples) + static_cast<std::uint32_t>(s);
+      if (ray) sum += look(*ray, numbers, cast_of(stage, seed, pixel, sample));
     }
     return sum / static_cast<double>(samples);
   };
@@ -130,6 +141,7 @@ UnitSampler unit_sampler(const Stage& stage, const RenderRequest& request, int s
 
 void validate(const RenderRequest& request) {
   validate(request.camera);
+  validate(request.detail);
   const auto within = [](double x, double lo, double hi) { return x >= lo && x <= hi; };
   if (!within(request.effort.noise, 0.0, 1.0))
     throw_invalid("render.noise", "is " + std::to_string(request.effort.noise), "0 (none) to 1");
@@ -161,9 +173,10 @@ Image render(const Forest& forest, const OpticsTable& optics, const LightMap& ma
   const ShadingParts grey_parts{stage.scene, index, band, grey_surfaces, grey_light, grey, request.leaf_sun};
   const Shader shader(parts, find_mean_light(parts, grey_parts));
   const int samples = samples_per_unit(request);
-  const UnitSampler sample =
-      unit_sampler(stage, request, samples, [&](const CameraRay& ray, PathSamples& numbers) {
-        return shader.radiance(stage.scene.closest_hit(ray.origin_m, ray.direction), ray.direction, numbers);
+  const UnitSampler sample = unit_sampler(
+      stage, request, samples, [&](const CameraRay& ray, PathSamples& numbers, std::uint8_t cast) {
+        return shader.radiance(stage.scene.closest_hit(ray.origin_m, ray.direction, {.cast = cast}),
+                               ray.direction, numbers);
       });
   return run(stage, request, samples, sample, &map.bands.front(), index, control, tiles);
 }
@@ -178,8 +191,8 @@ Image render_path_traced(const Forest& forest, const OpticsTable& optics, const 
   const PathTracer tracer(stage.scene, stage.surfaces, stage.sources);
   const int paths = samples_per_unit(request);
   const UnitSampler sample =
-      unit_sampler(stage, request, paths, [&](const CameraRay& ray, PathSamples& numbers) {
-        return tracer.radiance(ray.origin_m, ray.direction, numbers);
+      unit_sampler(stage, request, paths, [&](const CameraRay& ray, PathSamples& numbers, std::uint8_t cast) {
+        return tracer.radiance(ray.origin_m, ray.direction, numbers, cast);
       });
   return run(stage, request, paths, sample, nullptr, index, control, tiles);
 }

@@ -3,6 +3,7 @@
 // needed), the truth the first is compared with. OpenImageIO is known in this folder only.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -11,6 +12,7 @@
 
 #include "lighting/base/light_map.h"
 #include "lighting/optics/optics.h"
+#include "lighting/render/picture_detail.h"
 #include "lighting/render/picture_look.h"
 #include "lighting/sky/illumination.h"
 #include "sim/base/run_control.h"
@@ -51,6 +53,7 @@ struct Image {
                                        // 0 elsewhere, and everywhere in path-traced pictures
   int samples_per_pixel = 0;           // taken, of the pixel with fewest
   bool stopped = false;                // before it was done, see RenderEffort
+  std::array<std::size_t, kDetails> trees_at{};  // trees shown at each Detail, among the first of the casts
 };
 // Standard error of a pixel, root mean square over the picture, relative to its mean brightness. Without the
 // brightest hundredth of the pixels, which a picture shows as white: the sun's disc would be all of it.
@@ -78,6 +81,7 @@ struct RenderRequest {
   PictureLook look{};
   RenderEffort effort{};
   LeafSun leaf_sun = LeafSun::kTraced;
+  PictureDetail detail{};  // of far trees
 };
 // Throws Error(kInvalidInput) naming "render.<field>" or "camera.<field>".
 void validate(const RenderRequest& request);

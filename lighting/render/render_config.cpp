@@ -47,7 +47,7 @@ RenderMode render_mode_named(const std::string& word, const std::string& where) 
 
 RenderRequest picture_request(const RenderSettings& settings, const Camera& camera,
                               const Illumination& light) {
-  return {camera, light, settings.look, settings.effort, settings.leaf_sun};
+  return {camera, light, settings.look, settings.effort, settings.leaf_sun, settings.detail};
 }
 
 RenderSettings read_render_settings(const ConfigTable& table) {
@@ -58,6 +58,8 @@ RenderSettings read_render_settings(const ConfigTable& table) {
       static_cast<int>(table.integer_or("max_samples_per_pixel", 4096, {1, 1 << 20}));
   s.leaf_sun = table.choice_or("leaf_sun", "traced", {"traced", "stored"}) == "stored" ? LeafSun::kStored
                                                                                        : LeafSun::kTraced;
+  s.detail = picture_detail_named(table.text_or("detail", "full"), table.where("detail"));
+  s.detail.tolerance = table.number_or("detail_tolerance", s.detail.tolerance, {1e-6, 1.0});
   s.look.outline = read_outline(table);
   s.look.patterns = table.boolean_or("patterns", true);
   s.look.ground = table.choice_or("ground", "litter", {"litter", "grass"}) == "grass" ? GroundCover::kGrass

@@ -16,6 +16,7 @@ struct RenderSettings {
   PictureLook look;
   RenderEffort effort;
   LeafSun leaf_sun = LeafSun::kTraced;
+  PictureDetail detail;
   ToneMap tone;
 };
 
@@ -24,6 +25,7 @@ RenderRequest picture_request(const RenderSettings& settings, const Camera& came
                               const Illumination& light);
 
 // Keys: mode ("light_map", "path_traced"), noise, max_samples_per_pixel, leaf_sun ("traced", "stored"),
+// detail ("full", "auto", "pruned_4", "pruned_16", "pruned_64"), detail_tolerance,
 // leaf_outline ("by_species", "as_modelled", "ovate", "lobed", "needle"), patterns, leaf_gloss,
 // ground ("litter", "grass"), gloss_exponent, bark_width_m, tone ("linear", "filmic"), exposure_stops, and
 // [[render.textures]]: material, leaf_alpha, leaf_reflectance, leaf_thickness, leaf_normal, bark (image

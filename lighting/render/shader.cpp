@@ -15,7 +15,7 @@ Vec3 Shader::radiance(const RayHit& hit, const Vec3& direction, PathSamples& num
 }
 
 std::size_t Shader::element_of(const RayHit& hit) const {
-  return parts_.index.first_element(hit.instance) + parts_.scene.original_element(hit.instance, hit.local);
+  return parts_.index.first_element(hit.instance) + parts_.scene.original_element(hit);
 }
 
 const ElementLight& Shader::light_of(const RayHit& hit) const { return parts_.map.elements[element_of(hit)]; }

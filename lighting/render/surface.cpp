@@ -45,7 +45,7 @@ Surface SurfaceTable::at(const RayHit& hit) const {
 
 Surface SurfaceTable::leaf(const RayHit& hit) const {
   const PrototypeId id = scene_.original_prototype(hit.instance);
-  const FoliageElement& e = scene_.shown_prototype(hit.instance).foliage[hit.local];
+  const FoliageElement& e = scene_.shown_prototype(hit).foliage[hit.local];
   const LeafOptics& leaf = optics_.material(band_, id, e.material).leaf;
   const Vec3 front = channel_factor(leaf.albedo_front(), colour_.leaf_exponent);
   const Vec3 back = channel_factor(leaf.albedo_back(), colour_.leaf_exponent);
@@ -73,7 +73,7 @@ Surface SurfaceTable::leaf(const RayHit& hit) const {
 
 Surface SurfaceTable::wood(const RayHit& hit) const {
   const PrototypeId id = scene_.original_prototype(hit.instance);
-  const Prototype& prototype = scene_.shown_prototype(hit.instance);
+  const Prototype& prototype = scene_.shown_prototype(hit);
   const std::uint32_t material = hit.kind == HitKind::kWood ? prototype.wood[hit.local].material
                                                             : prototype.wood_mesh[hit.local].material;
   const double albedo = optics_.material(band_, id, material).bark_reflectance;

@@ -15,17 +15,49 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 bool comes_first(const MeasuredDetail& a, const MeasuredDetail& b) {
-  return a.detail != b.detail ? a.detail < b.detail : a.footprint_m < b.footprint_m;
+  return a.detail != b.detail ? a.detail < b.detail : a.footprint < b.footprint;
+}
+
+// Of a flat element its own, of a shoot that of its cylinder from the side.
+double outline_m2(const FoliageElement& e) {
+  if (e.shape != ElementShape::kShoot) return element_geometric_area(e);
+  return 4.0 * glm::length(Vec3(e.half_u_m)) * glm::length(Vec3(e.half_v_m));
 }
 
 }  // namespace
+
+std::string to_string(Detail detail) {
+  switch (detail) {
+    case Detail::kExplicit:
+      return "explicit";
+    case Detail::kPruned4:
+      return "pruned_4";
+    case Detail::kPruned16:
+      return "pruned_16";
+    case Detail::kPruned64:
+      return "pruned_64";
+    case Detail::kBough:
+      return "bough";
+    default:
+      return "billboards";
+  }
+}
+
+double leaf_side_m(std::span<const FoliageElement> foliage) {
+  double sum = 0, squares = 0;
+  for (const FoliageElement& e : foliage) {
+    const double area = outline_m2(e);
+    sum += area, squares += area * area;
+  }
+  return sum > 0 ? std::sqrt(squares / sum) : 0;
+}
 
 DetailTable::DetailTable(std::vector<MeasuredDetail> rows) : rows_(std::move(rows)) {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const MeasuredDetail& row = rows_[i];
     const std::string where = "detail table row " + std::to_string(i);
-    if (!(row.footprint_m > 0) || !std::isfinite(row.footprint_m))
-      throw_invalid(where, "footprint is not a positive number", "metres > 0");
+    if (!(row.footprint > 0) || !std::isfinite(row.footprint))
+      throw_invalid(where, "footprint is not a positive number", "leaf sides > 0");
     if (!(row.rms_error >= 0) || !(row.cost_ns >= 0))
       throw_invalid(where, "error or cost is negative or undefined", "both >= 0");
   }
@@ -36,35 +68,34 @@ DetailTable::DetailTable(std::vector<MeasuredDetail> rows) : rows_(std::move(row
   if (same != rows_.end())
     throw_invalid(
         "detail table",
-        "two rows of one representation at a footprint of " + std::to_string(same->footprint_m) + " m",
+        "two rows of one representation at a footprint of " + std::to_string(same->footprint) + " leaf sides",
         "one");
 }
 
-MeasuredDetail DetailTable::at(Detail detail, double footprint_m) const {
-  SUNFLECK_EXPECTS(footprint_m > 0);
+MeasuredDetail DetailTable::at(Detail detail, double footprint) const {
+  SUNFLECK_EXPECTS(footprint > 0);
   const auto first =
       std::lower_bound(rows_.begin(), rows_.end(), MeasuredDetail{detail, 0, 0, 0}, comes_first);
   const auto last = std::find_if(first, rows_.end(), [&](const auto& row) { return row.detail != detail; });
-  const MeasuredDetail unknown{detail, footprint_m, detail == Detail::kExplicit ? 0 : kInfinity, kInfinity};
+  const MeasuredDetail unknown{detail, footprint, detail == Detail::kExplicit ? 0 : kInfinity, kInfinity};
   if (first == last) return unknown;
-  const auto above =
-      std::find_if(first, last, [&](const auto& row) { return row.footprint_m >= footprint_m; });
-  if (above == last) return {detail, footprint_m, (last - 1)->rms_error, (last - 1)->cost_ns};
-  if (above == first && above->footprint_m > footprint_m) {
+  const auto above = std::find_if(first, last, [&](const auto& row) { return row.footprint >= footprint; });
+  if (above == last) return {detail, footprint, (last - 1)->rms_error, (last - 1)->cost_ns};
+  if (above == first && above->footprint > footprint) {
     if (detail != Detail::kExplicit) return unknown;
-    return {detail, footprint_m, above->rms_error, above->cost_ns};
+    return {detail, footprint, above->rms_error, above->cost_ns};
   }
-  if (above->footprint_m == footprint_m) return *above;
+  if (above->footprint == footprint) return *above;
   const MeasuredDetail &a = *(above - 1), &b = *above;
-  const double share = std::log(footprint_m / a.footprint_m) / std::log(b.footprint_m / a.footprint_m);
-  return {detail, footprint_m, std::lerp(a.rms_error, b.rms_error, share),
+  const double share = std::log(footprint / a.footprint) / std::log(b.footprint / a.footprint);
+  return {detail, footprint, std::lerp(a.rms_error, b.rms_error, share),
           std::lerp(a.cost_ns, b.cost_ns, share)};
 }
 
-Detail DetailTable::choose(double footprint_m, double rms_tolerance, double uniform, LightUse use) const {
-  SUNFLECK_EXPECTS(footprint_m > 0 && uniform >= 0 && uniform < 1);
+Detail DetailTable::choose(double footprint, double rms_tolerance, double uniform, LightUse use) const {
+  SUNFLECK_EXPECTS(footprint > 0 && uniform >= 0 && uniform < 1);
   if (use == LightUse::kLightMap) return Detail::kExplicit;
-  const double shifted = footprint_m / (1 + 0.4 * uniform);
+  const double shifted = footprint / (1 + 0.4 * uniform);
   Detail best = Detail::kExplicit;
   double cost = at(best, shifted).cost_ns;
   for (int i = 1; i < kDetails; ++i) {

@@ -1,6 +1,9 @@
 // Which representation of a plant a picture takes at a pixel footprint: the cheapest whose measured error is
 // within the picture's tolerance.
 //
+// Footprints count in sides of the plant's leaves (leaf_side_m): how far leaves are below a pixel is what
+// errors depend on, so that one table serves all species.
+//
 // The choice is a plain function of a table of measurements, one row per representation and footprint;
 // nothing is assumed of the representations themselves. Between rows of one representation error and cost are
 // interpolated over the logarithm of the footprint; finer than its finest row a representation is not used
@@ -11,7 +14,10 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
+
+#include "sim/plant/prototype.h"
 
 namespace sunfleck {
 
@@ -24,12 +30,14 @@ enum class Detail : std::uint8_t {
   kBillboards  // billboard cloud (billboard_cloud.h)
 };
 inline constexpr int kDetails = 6;
+// "explicit", "pruned_4", "pruned_16", "pruned_64", "bough", "billboards".
+std::string to_string(Detail detail);
 
 struct MeasuredDetail {
   Detail detail = Detail::kExplicit;
-  double footprint_m = 1;  // pixel's width at the plant, > 0
-  double rms_error = 0;    // of radiance, in units of the picture's white
-  double cost_ns = 0;      // per sample, shadow included
+  double footprint = 1;  // pixel's width at the plant in leaf sides, > 0
+  double rms_error = 0;  // of radiance, in units of the picture's white
+  double cost_ns = 0;    // per sample, shadow included
 };
 
 enum class LightUse {
@@ -45,14 +53,19 @@ class DetailTable {
 
   // uniform in [0, 1): the same for all rays of an instance (or of a sample). Explicit costs what its rows
   // say, or counts as dearest if there are none.
-  Detail choose(double footprint_m, double rms_tolerance, double uniform,
+  Detail choose(double footprint, double rms_tolerance, double uniform,
                 LightUse use = LightUse::kPicture) const;
   // Expected error and cost of a representation; infinite where it was not measured.
-  MeasuredDetail at(Detail detail, double footprint_m) const;
+  MeasuredDetail at(Detail detail, double footprint) const;
 
  private:
   std::vector<MeasuredDetail> rows_;  // by representation, then footprint
 };
+
+// Side of the square that stands for the leaves of a plant: its area is the mean of their outlines weighted
+// by their areas (few large leaves are coarser than many small ones). Of a shoot the outline from its side. 0
+// without leaves.
+double leaf_side_m(std::span<const FoliageElement> foliage);
 
 // A number in [0, 1) of an instance that does not depend on how many others there are.
 double detail_choice(std::uint64_t seed, std::uint64_t instance);

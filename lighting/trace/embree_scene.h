@@ -67,6 +67,7 @@ struct Cell {
 struct SceneCopy {
   std::uint32_t instance = 0;
   Cell shift;
+  PrototypeId prototype{};
   const PrototypeScene* figures = nullptr;
   double cos_yaw = 1, sin_yaw = 0;
 };

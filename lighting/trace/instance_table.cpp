@@ -43,7 +43,7 @@ void take_back(const SavedRay& saved, RTCRay& ray) {
 const InstanceTable& table_of(void* pointer) { return *static_cast<const InstanceTable*>(pointer); }
 
 RTCScene scene_of(const InstanceTable& table, unsigned tree) {
-  return (*table.figures)[table.forest->instances[tree].prototype.value].scene.get();
+  return (*table.figures)[table.prototype_of(tree).value].scene.get();
 }
 
 // The box of the prototype turned about the stem, cut by the circle that holds the tree; a millionth wider
@@ -51,7 +51,8 @@ RTCScene scene_of(const InstanceTable& table, unsigned tree) {
 void tree_bounds(const RTCBoundsFunctionArguments* args) {
   const InstanceTable& table = table_of(args->geometryUserPtr);
   const Instance& instance = table.forest->instances[args->primID];
-  const Box& box = table.boxes[instance.prototype.value];
+  const PrototypeId prototype = table.prototype_of(args->primID);
+  const Box& box = table.boxes[prototype.value];
   RTCBounds& to = *args->bounds_o;
   if (box.empty()) {
     to.lower_x = to.lower_y = to.lower_z = std::numeric_limits<float>::infinity();
@@ -62,7 +63,7 @@ void tree_bounds(const RTCBoundsFunctionArguments* args) {
                s = std::sin(static_cast<double>(instance.yaw_rad));
   const Vec3 middle = box.centre(), half = 0.5 * (box.hi - box.lo);
   const Vec3 place(table.rows[args->primID].place_m);
-  const double reach = table.reaches_m[instance.prototype.value];
+  const double reach = table.reaches_m[prototype.value];
   const Vec2 turned(c * middle.x - s * middle.y, s * middle.x + c * middle.y);
   const Vec2 wide(std::abs(c) * half.x + std::abs(s) * half.y, std::abs(s) * half.x + std::abs(c) * half.y);
   const Vec3 lo(std::max(turned.x - wide.x, -reach), std::max(turned.y - wide.y, -reach), box.lo.z);
@@ -99,13 +100,14 @@ void tree_occluded(const RTCOccludedFunctionNArguments* args) {
 }  // namespace
 
 InstanceTable make_instance_table(const Forest& forest, const std::vector<PrototypeScene>& figures,
-                                  const Vec3& centre_m) {
+                                  const std::vector<PrototypeId>& prototypes, const Vec3& centre_m) {
   if (forest.instances.size() >= std::numeric_limits<unsigned>::max())
     throw Error(ErrorKind::kLimitExceeded, "forest", "has more trees than can be numbered",
                 "at most 4294967294");
   InstanceTable table;
   table.forest = &forest;
   table.figures = &figures;
+  table.prototypes = prototypes;
   for (const Prototype& p : forest.prototypes) {
     table.boxes.push_back(prototype_bounds(p));
     table.reaches_m.push_back(prototype_reach_m(p));
@@ -117,9 +119,11 @@ InstanceTable make_instance_table(const Forest& forest, const std::vector<Protot
 
 SceneCopy copy_in_table(const InstanceTable& table, unsigned tree) {
   const Instance& instance = table.forest->instances[tree];
+  const PrototypeId prototype = table.prototype_of(tree);
   return {tree,
           {},
-          &(*table.figures)[instance.prototype.value],
+          prototype,
+          &(*table.figures)[prototype.value],
           std::cos(static_cast<double>(instance.yaw_rad)),
           std::sin(static_cast<double>(instance.yaw_rad))};
 }

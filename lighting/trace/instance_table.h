@@ -24,14 +24,19 @@ static_assert(sizeof(TreeRow) == 24);
 struct InstanceTable {
   const Forest* forest = nullptr;
   const std::vector<PrototypeScene>* figures = nullptr;  // of each prototype
+  std::vector<PrototypeId> prototypes;                   // of each instance, where they are not its own
   std::vector<Box> boxes;                                // of each prototype, in tree coordinates
   std::vector<double> reaches_m;                         // of each, round the stem axis
   std::vector<TreeRow> rows;                             // of each instance
+  PrototypeId prototype_of(unsigned tree) const {
+    return prototypes.empty() ? forest->instances[tree].prototype : prototypes[tree];
+  }
 };
 
-// All must outlive the table. Throws Error(kLimitExceeded) for more than 4 thousand million trees.
+// `prototypes`: of each instance; empty: its own. All else must outlive the table. Throws
+// Error(kLimitExceeded) for more than 4 thousand million trees.
 InstanceTable make_instance_table(const Forest& forest, const std::vector<PrototypeScene>& figures,
-                                  const Vec3& centre_m);
+                                  const std::vector<PrototypeId>& prototypes, const Vec3& centre_m);
 
 // The tree met, with the turn that is left to do to the normal of the hit.
 SceneCopy copy_in_table(const InstanceTable& table, unsigned tree);

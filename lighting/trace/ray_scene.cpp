@@ -18,25 +18,39 @@ namespace sunfleck {
 
 using namespace trace;
 
+namespace {
+
+// All trees as rays of one cast meet them.
+struct PlacedTrees {
+  std::vector<SceneCopy> copies;  // none where there is a table
+  bool flat = false;              // every copy is written out
+  InstanceTable table;            // of very many trees that do not repeat
+  SceneHandle top;
+
+  SceneCopy copy_met(const RTCHit& hit) const {
+    if (!table.rows.empty()) return copy_in_table(table, hit.instID[0]);
+    return copies[flat ? hit.geomID / kSlots : hit.instID[0]];
+  }
+};
+
+}  // namespace
+
 struct RayScene::State {
   Device device;
   Vec3 centre_m{0};
   Surroundings around;
   std::vector<PrototypeScene> figures;  // of each prototype, or of each copy
-  std::vector<SceneCopy> copies;        // none where there is a table
-  bool flat = false;                    // every copy is written out
-  InstanceTable table;                  // of very many trees that do not repeat
-  SceneHandle top;
+  std::vector<PlacedTrees> casts;       // at least one; a table stays where it is
   std::size_t wrapped_copies = 0;
   bool has_shoots = false;
 
   State(const Forest& forest, const Options& options, const RunControl& control);
   void build(const Forest& forest, const Options& options, const RunControl& control);
   void build_prototypes(const Forest& forest, const Options& options, const RunControl& control);
-  SceneCopy copy_met(const RTCHit& hit) const {
-    if (!table.rows.empty()) return copy_in_table(table, hit.instID[0]);
-    return copies[flat ? hit.geomID / kSlots : hit.instID[0]];
-  }
+  void place(const Forest& forest, const std::vector<PrototypeId>& prototypes, PlacedTrees& trees,
+             const RunControl& control);
+  void place_in_table(const Forest& forest, const std::vector<PrototypeId>& prototypes, PlacedTrees& trees,
+                      const RunControl& control);
   // In the scene's coordinates. A ray from the ground starts a hair below it, so that it meets what lies
   // there.
   Vec3 start_of(const Vec3& origin_m, const RayStart& from) const {
@@ -197,22 +211,39 @@ void RayScene::State::build_prototypes(const Forest& forest, const Options& opti
     build_prototype_scene(device, forest.prototypes[i], options, figures[i], control);
 }
 
+void RayScene::State::place(const Forest& forest, const std::vector<PrototypeId>& prototypes,
+                            PlacedTrees& trees, const RunControl& control) {
+  trees.copies = copies_of(forest, prototypes, around, centre_m);
+  trees.top = build_top_scene(device, forest, trees.copies, figures, around, centre_m, control);
+}
+
+void RayScene::State::place_in_table(const Forest& forest, const std::vector<PrototypeId>& prototypes,
+                                     PlacedTrees& trees, const RunControl& control) {
+  trees.table = make_instance_table(forest, figures, prototypes, centre_m);
+  trees.top = build_table_scene(device, trees.table, control);
+}
+
 void RayScene::State::build(const Forest& forest, const Options& options, const RunControl& control) {
-  if (!around.periodic && forest.instances.size() >= options.table_from) {
-    build_prototypes(forest, options, control);
-    table = make_instance_table(forest, figures, centre_m);
-    top = build_table_scene(device, table, control);
-    return;
+  const bool in_table = !around.periodic && forest.instances.size() >= options.table_from;
+  casts.resize(std::max<std::size_t>(1, options.casts.size()));
+  PlacedTrees& first = casts[0];
+  if (options.casts.empty() && !in_table) {
+    first.copies = copies_of(forest, own_prototypes(forest), around, centre_m);
+    first.flat = is_flat_better(figures_of(forest, first.copies), first.copies.size(), options);
   }
-  copies = copies_of(forest, around, centre_m);
-  for (const SceneCopy& copy : copies) wrapped_copies += copy.shift == Cell{} ? 0 : 1;
-  flat = is_flat_better(figures_of(forest, copies), copies.size(), options);
-  if (flat) {
-    top = build_flat_scene(device, forest, copies, figures, around, centre_m, options, control);
+  if (first.flat) {
+    first.top =
+        build_flat_scene(device, forest, first.copies, figures, around, centre_m, options, control);
   } else {
     build_prototypes(forest, options, control);
-    top = build_top_scene(device, forest, copies, figures, around, centre_m, control);
+    const std::vector<PrototypeId> own = in_table ? std::vector<PrototypeId>{} : own_prototypes(forest);
+    for (std::size_t c = 0; c < casts.size(); ++c) {
+      const std::vector<PrototypeId>& prototypes = options.casts.empty() ? own : options.casts[c];
+      in_table ? place_in_table(forest, prototypes, casts[c], control)
+               : place(forest, prototypes, casts[c], control);
+    }
   }
+  for (const SceneCopy& copy : first.copies) wrapped_copies += copy.shift == Cell{} ? 0 : 1;
 }
 
 RayScene::RayScene(const Forest& forest, const Options& options, const RunControl& control)
@@ -255,8 +286,10 @@ RayHit RayScene::closest_on(const Way& way) const {
   const Vec3& direction = way.direction;
   SUNFLECK_EXPECTS(std::abs(glm::dot(direction, direction) - 1.0) < 1e-6);
   const State& s = *state_;
+  SUNFLECK_EXPECTS(way.from.cast < s.casts.size());
+  const PlacedTrees& trees = s.casts[way.from.cast];
   const Vec3 origin = s.start_of(way.origin_m, way.from);
-  RayContext context = context_for(s.copies, way.from, way.passed_instance);
+  RayContext context = context_for(trees.copies, way.from, way.passed_instance);
   RTCRayHit found;
   RayHit hit;
   const RayEnd end = walk(s.around, origin, direction, way.min_m, [&](Piece piece) {
@@ -267,9 +300,9 @@ RayHit RayScene::closest_on(const Way& way) const {
     found.ray = embree_ray(piece, direction);
     found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(s.top.get(), &context.embree, &found);
+    rtcIntersect1(trees.top.get(), &context.embree, &found);
     if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-    const SceneCopy copy = s.copy_met(found.hit);
+    const SceneCopy copy = trees.copy_met(found.hit);
     hit = described(found, copy, piece, direction, context.ray_key);
     hit.on_original_m = into_base_cell(s.around, hit.position_m, copy.shift);
     return true;
@@ -279,6 +312,7 @@ RayHit RayScene::closest_on(const Way& way) const {
     hit = ended(end, s.around, up, origin, direction);
     hit.on_original_m = hit.position_m;
   }
+  hit.cast = way.from.cast;
   hit.position_m += s.centre_m;
   hit.on_original_m += s.centre_m;
   return hit;
@@ -288,13 +322,15 @@ bool RayScene::occluded_on(const Way& way) const {
   const Vec3& direction = way.direction;
   SUNFLECK_EXPECTS(std::abs(glm::dot(direction, direction) - 1.0) < 1e-6);
   const State& s = *state_;
+  SUNFLECK_EXPECTS(way.from.cast < s.casts.size());
+  const PlacedTrees& trees = s.casts[way.from.cast];
   const Vec3 origin = s.start_of(way.origin_m, way.from);
-  RayContext context = context_for(s.copies, way.from, way.passed_instance);
+  RayContext context = context_for(trees.copies, way.from, way.passed_instance);
   const RayEnd end = walk(s.around, origin, direction, way.min_m, [&](const Piece& piece) {
     context.cell = piece.cell;
     if (s.has_shoots) context.ray_key = key_of(piece.origin, direction);
     RTCRay ray = embree_ray(piece, direction);
-    rtcOccluded1(s.top.get(), &context.embree, &ray);
+    rtcOccluded1(trees.top.get(), &context.embree, &ray);
     return ray.tfar < 0.0f;
   });
   return end.kind != RayEnd::kSky;
@@ -303,7 +339,11 @@ bool RayScene::occluded_on(const Way& way) const {
 std::size_t RayScene::copies() const { return state_->wrapped_copies; }
 std::size_t RayScene::memory_bytes() const {
   const State& s = *state_;
-  return s.device.bytes() + s.copies.size() * sizeof(SceneCopy) + s.table.rows.size() * sizeof(TreeRow);
+  std::size_t bytes = s.device.bytes();
+  for (const PlacedTrees& trees : s.casts)
+    bytes += trees.copies.size() * sizeof(SceneCopy) + trees.table.rows.size() * sizeof(TreeRow) +
+             trees.table.prototypes.size() * sizeof(PrototypeId);
+  return bytes;
 }
 
 }  // namespace sunfleck

@@ -29,7 +29,8 @@ struct RayHit {
   // The same point on the original where a wrapped copy was hit: a ray goes on from here with a RayStart of
   // the same kind, instance and local.
   Vec3 on_original_m{0};
-  Vec3 normal{0};  // unit, of the surface hit, turned towards the ray's origin
+  Vec3 normal{0};         // unit, of the surface hit, turned towards the ray's origin
+  std::uint8_t cast = 0;  // of the ray
 };
 
 // The surface a ray starts on, so that it does not hit the place it leaves. kSky: none. Shoots are no
@@ -40,10 +41,11 @@ struct RayStart {
   bool front = true;  // wood: from its outer side
   std::uint32_t instance = 0, local = 0;
   std::uint32_t needle = RayHit::kNoNeedle;
+  std::uint8_t cast = 0;  // which of Options::casts the ray meets
 };
 // From where a ray met something, to the side it came from or to the other.
 inline RayStart start_from(const RayHit& hit, bool to_side_met) {
-  return {hit.kind, to_side_met == hit.front, hit.instance, hit.local, hit.needle};
+  return {hit.kind, to_side_met == hit.front, hit.instance, hit.local, hit.needle, hit.cast};
 }
 
 // How shoots meet rays.
@@ -75,6 +77,10 @@ class RayScene {
     // Other forms than kVolume need the kind of every material that shoots have (else Error(kInvalidInput)).
     std::vector<NeedleKind> needles{};
     std::uint64_t needle_seed = 1;  // of expand_needles
+    // Several plants for each place, of which a ray meets one: casts[c][i] stands where instance i does for
+    // rays of cast c, in place of the instance's own prototype. For pictures whose samples look at different
+    // prototypes of one tree, which share their structures. None: one cast, of the instances' prototypes.
+    std::vector<std::vector<PrototypeId>> casts{};
   };
   // Throws Error(kCancelled) when stopped while building.
   RayScene(const Forest& forest, const Options& options, const RunControl& control = {});

@@ -84,7 +84,7 @@ Occupied occupied(const Forest& forest, const Surroundings& around, const Vec3& 
   return {heights.lo.x, heights.hi.x, reach_m};
 }
 
-void add_wrapped_copies(std::size_t number, const Instance& instance, const Box& local,
+void add_wrapped_copies(const SceneCopy& base, const Instance& instance, const Box& local,
                         const Surroundings& around, const Vec3& centre_m, std::vector<SceneCopy>& copies) {
   const auto corners = placed_corners(instance, local, centre_m);
   const Box box = box_around(corners);
@@ -93,7 +93,7 @@ void add_wrapped_copies(std::size_t number, const Instance& instance, const Box&
   const Shifts ys = shifts_into(around.cell_lo.y, around.cell_size.y, box.lo.y, box.hi.y, touch);
   for (std::int32_t x = xs.first; x <= xs.last; ++x)
     for (std::int32_t y = ys.first; y <= ys.last; ++y)
-      copies.push_back({static_cast<std::uint32_t>(number), {x, y}});
+      copies.push_back({base.instance, {x, y}, base.prototype});
 }
 
 }  // namespace
@@ -118,17 +118,25 @@ Surroundings surroundings_of(const Forest& forest, const RayScene::Options& opti
   return s;
 }
 
-std::vector<SceneCopy> copies_of(const Forest& forest, const Surroundings& around, const Vec3& centre_m) {
+std::vector<PrototypeId> own_prototypes(const Forest& forest) {
+  std::vector<PrototypeId> own;
+  own.reserve(forest.instances.size());
+  for (const Instance& instance : forest.instances) own.push_back(instance.prototype);
+  return own;
+}
+
+std::vector<SceneCopy> copies_of(const Forest& forest, std::span<const PrototypeId> cast,
+                                 const Surroundings& around, const Vec3& centre_m) {
   const std::vector<Box> boxes = prototype_boxes(forest);
   std::vector<SceneCopy> copies;
   for (std::size_t i = 0; i < forest.instances.size(); ++i) {
-    const Instance& instance = forest.instances[i];
-    const Box& local = boxes[instance.prototype.value];
-    if (is_empty(forest.prototypes[instance.prototype.value]) || local.empty()) continue;
+    const SceneCopy base{static_cast<std::uint32_t>(i), {}, cast[i]};
+    const Box& local = boxes[cast[i].value];
+    if (is_empty(forest.prototypes[cast[i].value]) || local.empty()) continue;
     if (around.periodic)
-      add_wrapped_copies(i, instance, local, around, centre_m, copies);
+      add_wrapped_copies(base, forest.instances[i], local, around, centre_m, copies);
     else
-      copies.push_back({static_cast<std::uint32_t>(i), {}});
+      copies.push_back(base);
   }
   return copies;
 }
@@ -136,7 +144,7 @@ std::vector<SceneCopy> copies_of(const Forest& forest, const Surroundings& aroun
 std::size_t figures_of(const Forest& forest, const std::vector<SceneCopy>& copies) {
   std::size_t figures = 0;
   for (const SceneCopy& copy : copies) {
-    const Prototype& p = forest.prototypes[forest.instances[copy.instance].prototype.value];
+    const Prototype& p = forest.prototypes[copy.prototype.value];
     figures += p.foliage.size() + p.wood.size() + p.wood_mesh.size();
   }
   return figures;
@@ -155,7 +163,7 @@ SceneHandle build_flat_scene(const Device& device, const Forest& forest, std::ve
     placed[i].copy = i;
     copies[i].figures = &placed[i];
     add_figures({device, scene.get(), i * kSlots, {&instance, moved_by}, options},
-                forest.prototypes[instance.prototype.value], placed[i]);
+                forest.prototypes[copies[i].prototype.value], placed[i]);
   }
   commit(device, scene.get(), control);
   return scene;
@@ -167,7 +175,7 @@ SceneHandle build_top_scene(const Device& device, const Forest& forest, std::vec
   SceneHandle scene(rtcNewScene(device.get()));
   for (std::size_t i = 0; i < copies.size() && !control.stop.stop_requested(); ++i) {
     const Instance& instance = forest.instances[copies[i].instance];
-    copies[i].figures = &prototypes[instance.prototype.value];
+    copies[i].figures = &prototypes[copies[i].prototype.value];
     copies[i].cos_yaw = std::cos(static_cast<double>(instance.yaw_rad));
     copies[i].sin_yaw = std::sin(static_cast<double>(instance.yaw_rad));
     const RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_INSTANCE);

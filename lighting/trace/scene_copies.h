@@ -2,6 +2,7 @@
 // whose box reaches into the base cell.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "lighting/trace/embree_scene.h"
@@ -12,8 +13,13 @@ namespace sunfleck::trace {
 // Ground, period and the heights between which there is something to hit, around `centre_m`.
 Surroundings surroundings_of(const Forest& forest, const RayScene::Options& options, const Vec3& centre_m);
 
-// Of everything there is to hit; which figures they are made of is left to the builders.
-std::vector<SceneCopy> copies_of(const Forest& forest, const Surroundings& around, const Vec3& centre_m);
+// The prototypes of a forest's instances.
+std::vector<PrototypeId> own_prototypes(const Forest& forest);
+
+// Of everything there is to hit where `cast[i]` stands in the place of instance i; which figures they are
+// made of is left to the builders.
+std::vector<SceneCopy> copies_of(const Forest& forest, std::span<const PrototypeId> cast,
+                                 const Surroundings& around, const Vec3& centre_m);
 
 // Figures of all copies together.
 std::size_t figures_of(const Forest& forest, const std::vector<SceneCopy>& copies);

@@ -41,10 +41,6 @@ void check_belongs(const LightMap& map, const Forest& forest, const LightRequest
         throw_invalid(where, "was made with " + name + " = " + made_value, "the scene file says " + value);
 }
 
-}  // namespace
-
-namespace {
-
 Image make_image(const RenderOptions& o, const SceneFile& scene, const Forest& forest, RenderMode mode,
                  const RenderRequest& request, const RunControl& control) {
   const OpticsTable optics(forest, scene.light->optics);
@@ -64,6 +60,18 @@ void print_summary(const Image& image, RenderMode mode, double wall_s) {
       "noise        %.2f %% of the picture's mean brightness (RMS of its pixels); median pixel %.1f %% "
       "of its own\n",
       100 * image_noise(image), 100 * median_noise(image));
+}
+
+// "detail       12 trees explicit, 30 pruned_4"; nothing where all have every leaf.
+void print_detail(const Image& image) {
+  std::string line;
+  for (int d = 0; d < kDetails; ++d) {
+    const std::size_t trees = image.trees_at[static_cast<std::size_t>(d)];
+    if (trees == 0) continue;
+    line += (line.empty() ? "" : ", ") + std::to_string(trees) + " " + to_string(static_cast<Detail>(d));
+  }
+  if (image.trees_at[0] == 0 || line.find(',') != std::string::npos)
+    std::printf("detail       trees: %s\n", line.c_str());
 }
 
 }  // namespace
@@ -88,6 +96,7 @@ void run_render(const RenderOptions& o, const RunControl& control) {
   if (!o.exr.empty()) save_exr(image, o.exr);
   finish_progress();
   print_summary(image, settings.mode, wall_s.count());
+  if (settings.detail.mode != DetailMode::kFull) print_detail(image);
   for (const auto& path : {o.png, o.exr})
     if (!path.empty()) std::printf("wrote        %s\n", path.c_str());
   if (image.stopped) throw_cancelled();

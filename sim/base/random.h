@@ -38,6 +38,7 @@ enum class RandomPurpose : std::uint32_t {
   kLeafPruning,
   kDetailChoice,
   kBillboards,
+  kWoodThinning = 66,
   kSurroundings = 40,
   kClumps,
   kCrownBranches,
