@@ -2,6 +2,7 @@
 
 #include "lighting/trace/probe_path.h"
 #include "lighting/trace/probe_sun.h"
+#include "lighting/trace/sun_raster.h"
 #include "lighting/trace/visiting_order.h"
 #include "sim/base/contract.h"
 #include "sim/base/parallel.h"
@@ -46,20 +47,20 @@ DirectLight direct_light_by_rays(const trace::Receivers& receivers, const RaySce
   return direct;
 }
 
-DirectLight direct_light_by_picture(const trace::Receivers& receivers, const RayScene& scene,
-                                    const Illumination& light, const SunExposure& picture,
-                                    int rays_per_surface, std::uint64_t seed, const RunControl& control) {
-  SUNFLECK_EXPECTS(picture.sunlit_fraction.size() == receivers.foliage_count());
+DirectLight direct_light_by_shares(const trace::Receivers& receivers, const RayScene& scene,
+                                   const Illumination& light, std::span<const float> sunlit_fraction,
+                                   int rays_per_surface, std::uint64_t seed, const RunControl& control) {
+  SUNFLECK_EXPECTS(sunlit_fraction.size() == receivers.foliage_count());
   DirectLight direct = dark(receivers);
   if (!trace::has_beam(light)) return direct;
-  direct.sunlit_fraction = picture.sunlit_fraction;
+  direct.sunlit_fraction.assign(sunlit_fraction.begin(), sunlit_fraction.end());
   const ForestIndex& index = receivers.index();
   for_each_chunk(receivers.foliage_count(), 8192, control, {}, [&](std::size_t begin, std::size_t end) {
     for (std::size_t e = begin; e < end; ++e) {
       const ForestIndex::Place place = index.place(e);
       const BeamOnFaces beam = beam_on_faces(receivers.forest(), place.instance, place.local, light.to_sun);
-      direct.on_face[2 * e] = beam.front * picture.sunlit_fraction[e];
-      direct.on_face[2 * e + 1] = beam.back * picture.sunlit_fraction[e];
+      direct.on_face[2 * e] = beam.front * sunlit_fraction[e];
+      direct.on_face[2 * e + 1] = beam.back * sunlit_fraction[e];
     }
   });
   const std::size_t first = receivers.foliage_count(), others = receivers.surface_count() - first;

@@ -3,12 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "lighting/sky/illumination.h"
 #include "lighting/trace/ray_scene.h"
 #include "lighting/trace/receivers.h"
-#include "lighting/trace/sun_raster.h"
 #include "sim/base/run_control.h"
 
 namespace sunfleck::links {
@@ -23,9 +23,10 @@ DirectLight direct_light_by_rays(const trace::Receivers& receivers, const RaySce
                                  const Illumination& light, int rays_per_surface, std::uint64_t seed,
                                  const RunControl& control);
 
-// Of foliage as the sun's picture shows it (raster_sun of the same sun), of wood and ground by shadow rays.
-DirectLight direct_light_by_picture(const trace::Receivers& receivers, const RayScene& scene,
-                                    const Illumination& light, const SunExposure& picture,
-                                    int rays_per_surface, std::uint64_t seed, const RunControl& control);
+// Of foliage by the share of each element that is in the sun (of the same sun, as raster_sun() draws it), of
+// wood and ground by shadow rays.
+DirectLight direct_light_by_shares(const trace::Receivers& receivers, const RayScene& scene,
+                                   const Illumination& light, std::span<const float> sunlit_fraction,
+                                   int rays_per_surface, std::uint64_t seed, const RunControl& control);
 
 }  // namespace sunfleck::links

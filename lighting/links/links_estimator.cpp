@@ -158,20 +158,13 @@ links::DirectLight links_direct_light(const LinksPrepared& prepared, const Illum
                               options.seed, control);
 }
 
-links::DirectLight links_drawn_light(const LinksPrepared& prepared, const Illumination& light,
-                                     const LinksOptions& options, const SunExposure* picture,
+links::DirectLight links_given_light(const LinksPrepared& prepared, const Illumination& light,
+                                     const LinksOptions& options, std::span<const float> sunlit_fraction,
                                      const RunControl& control) {
   constexpr int kMostRays = 4;  // of wood and ground, whose own light matters little
   check_options(options);
-  const trace::Receivers& r = *prepared.receivers;
-  SunExposure drawn;
-  if (picture == nullptr) {
-    drawn = raster_sun(r.forest(), r.index(), light.to_sun, light.sun_half_angle_rad,
-                       {.ground = options.ground, .seed = options.seed}, control);
-    picture = &drawn;
-  }
-  return direct_light_by_picture(r, *prepared.rays, light, *picture,
-                                 std::min(options.sun_rays_per_element, kMostRays), options.seed, control);
+  return direct_light_by_shares(*prepared.receivers, *prepared.rays, light, sunlit_fraction,
+                                std::min(options.sun_rays_per_element, kMostRays), options.seed, control);
 }
 
 LightMap links_light_map(const Forest& forest, const OpticsTable& optics, const Illumination& light_in,

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "lighting/base/light_map.h"
 #include "lighting/links/direct_light.h"
@@ -48,10 +49,10 @@ LinksPrepared prepare_links(const Forest& forest, const LinksOptions& options, c
 links::DirectLight links_direct_light(const LinksPrepared& prepared, const Illumination& light,
                                       const LinksOptions& options, const RunControl& control);
 
-// The same from a picture of the sun for foliage (raster_sun of the same sun and ground), with few shadow
-// rays for wood and ground alone. Without `picture` it is drawn, with SunRasterOptions' own target of 5 %.
-links::DirectLight links_drawn_light(const LinksPrepared& prepared, const Illumination& light,
-                                     const LinksOptions& options, const SunExposure* picture,
+// The same where the share of each foliage element that is in the sun is known already (SunExposure of the
+// same sun and ground): few shadow rays, for wood and ground alone.
+links::DirectLight links_given_light(const LinksPrepared& prepared, const Illumination& light,
+                                     const LinksOptions& options, std::span<const float> sunlit_fraction,
                                      const RunControl& control);
 
 // `direct`: per face of prepared.receivers, see links::DirectLight.

@@ -8,6 +8,7 @@
 #include "lighting/base/summaries.h"
 #include "lighting/envelope/envelope_full.h"
 #include "lighting/plan/auto_direct.h"
+#include "lighting/trace/probe_path.h"
 #include "sim/base/parallel.h"
 
 namespace sunfleck {
@@ -60,37 +61,6 @@ PreparedKey world_key(const WorldOptions& o) {
       .add("memory", o.memory_limit_bytes);
 }
 
-constexpr int kSunRaysOfWoodAndGround = 4;
-
-// Replaces what a few rays say of leaves by what the sun sees of them.
-void light_foliage(const LightScene& scene, const Illumination& light, std::span<const float> sunlit_fraction,
-                   links::DirectLight& direct, const RunControl& control) {
-  direct.sunlit_fraction.assign(sunlit_fraction.begin(), sunlit_fraction.end());
-  for (std::size_t e = 0; e < sunlit_fraction.size(); ++e) {
-    if (e % 65536 == 0) control.check();
-    const auto place = scene.index.place(e);
-    const BeamOnFaces beam = beam_on_faces(scene.forest, place.instance, place.local, light.to_sun);
-    direct.on_face[2 * e] = static_cast<float>(beam.front * sunlit_fraction[e]);
-    direct.on_face[2 * e + 1] = static_cast<float>(beam.back * sunlit_fraction[e]);
-  }
-}
-
-// Of wood and ground, and of leaves by the same few rays.
-links::DirectLight sun_by_few_rays(const LinksPrepared& prepared, const Illumination& light,
-                                   const LinksOptions& options, const RunControl& control) {
-  LinksOptions few = options;
-  few.sun_rays_per_element = std::min(options.sun_rays_per_element, kSunRaysOfWoodAndGround);
-  return links_direct_light(prepared, light, few, control);
-}
-
-std::shared_ptr<const links::DirectLight> given_links_sun(
-    const LightScene& scene, const LinksPrepared& prepared, const Illumination& light,
-    const LinksOptions& options, std::span<const float> sunlit_fraction, const RunControl& control) {
-  auto direct = std::make_shared<links::DirectLight>(sun_by_few_rays(prepared, light, options, control));
-  light_foliage(scene, light, sunlit_fraction, *direct, control);
-  return direct;
-}
-
 std::shared_ptr<const links::DirectLight> kept_links_sun(const LightScene& scene,
                                                          const LinksPrepared& prepared,
                                                          const Illumination& light,
@@ -103,14 +73,10 @@ std::shared_ptr<const links::DirectLight> kept_links_sun(const LightScene& scene
           .add("sun_rays", options.sun_rays_per_element),
       control,
       [&] {
-        auto direct =
-            std::make_shared<links::DirectLight>(sun_by_few_rays(prepared, light, options, control));
-        if (light.sun_is_up()) {
-          const auto drawn =
-              sun_exposure(scene, light, {.ground = options.ground, .seed = options.seed}, control);
-          light_foliage(scene, light, drawn->sunlit_fraction, *direct, control);
-        }
-        return std::shared_ptr<const links::DirectLight>(std::move(direct));
+        const auto drawn =
+            sun_exposure(scene, light, {.ground = options.ground, .seed = options.seed}, control);
+        return std::make_shared<const links::DirectLight>(
+            links_given_light(prepared, light, options, drawn->sunlit_fraction, control));
       },
       [](const links::DirectLight& d) {
         return (d.on_face.size() + d.sunlit_fraction.size()) * sizeof(float) + sizeof d;
@@ -181,9 +147,14 @@ LightMap kept_links_light_map(const LightScene& scene, const OpticsTable& optics
   std::shared_ptr<const links::DirectLight> sun;
   {
     const StageTimer timer(before, "tracing sun");
-    sun = sunlit_fraction.empty()
-              ? kept_links_sun(scene, *prepared, light, options, control)
-              : given_links_sun(scene, *prepared, light, options, sunlit_fraction, control);
+    if (!trace::has_beam(light))
+      sun =
+          std::make_shared<const links::DirectLight>(links_direct_light(*prepared, light, options, control));
+    else if (sunlit_fraction.empty())
+      sun = kept_links_sun(scene, *prepared, light, options, control);
+    else
+      sun = std::make_shared<const links::DirectLight>(
+          links_given_light(*prepared, light, options, sunlit_fraction, control));
   }
   LightMap map = links_light_map(scene.forest, optics, light, options, *prepared, *sun, control);
   add_times(map, before.times);

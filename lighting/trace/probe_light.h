@@ -1,8 +1,12 @@
 // Probes: the true light on a few chosen foliage elements, by path tracing, without a hit matrix of the whole
-// forest. From random points of both faces K cosine-distributed paths each; at every surface a path meets,
+// forest. From points of both faces K cosine-distributed paths each; at every surface a path meets,
 // the direct sun by a shadow ray from that very point, then on by reflection or transmission, all bands on
 // the same path, until it reaches the sky or Russian roulette ends it. Direct sun of the probe itself by S
 // shadow rays. Ground is the infinite plane, lit as it really is.
+//
+// The first rays of paths are two sets of K / 2 scrambled low-discrepancy points (low_discrepancy.h), shadow
+// rays two shifted lattices: on a clumped crown in PAR that leaves a fifth of the sun's variance that random
+// rays have, two thirds of the paths'. The sets are independent, so their difference gives the variance.
 //
 // Unbiased: no cells, no mean over a surface. The reference takes light as even over every leaf, wood group
 // and ground cell; where light varies inside them, probes are nearer to the truth. Surfaces and conventions
@@ -48,8 +52,8 @@ struct ProbeFace {
 
 struct ProbeBand {
   ProbeFace front, back;
-  // Of the sums over both faces. Unbiased estimates: right on average over probes (what error bars need), 0
-  // for a probe all of whose rays happened to agree.
+  // Of the sums over both faces. Unbiased estimates from the difference of two sets of rays: right on average
+  // over probes (what error bars need), far off for any single one.
   double direct_variance_w2_m4 = 0, diffuse_variance_w2_m4 = 0;
   double variance_w2_m4() const { return direct_variance_w2_m4 + diffuse_variance_w2_m4; }
   double irradiance_w_m2() const { return front.total() + back.total(); }

@@ -6,6 +6,7 @@
 
 #include "lighting/links/links_estimator.h"
 #include "lighting/trace/reference.h"
+#include "lighting/trace/sun_raster.h"
 #include "sim/base/parallel.h"
 #include "sim/forest/generated_scenes.h"
 
@@ -83,6 +84,14 @@ void direct_sun(benchmark::State& state) {
                  [&] { benchmark::DoNotOptimize(links_direct_light(prepared, sun_and_sky(), options, {})); });
 }
 
+links::DirectLight drawn_light(const LinksPrepared& prepared, const LinksOptions& options) {
+  const trace::Receivers& r = *prepared.receivers;
+  const Illumination light = sun_and_sky();
+  const SunExposure sun = raster_sun(r.forest(), r.index(), light.to_sun, light.sun_half_angle_rad,
+                                     {.ground = options.ground}, {});
+  return links_given_light(prepared, light, options, sun.sunlit_fraction, {});
+}
+
 // All that a further sun takes: drawing it, shadow rays for wood and ground, all bounces of one band.
 void further_sun(benchmark::State& state) {
   if (!right()) return state.SkipWithError("wrong answer");
@@ -92,7 +101,7 @@ void further_sun(benchmark::State& state) {
   const OpticsTable optics = near_infrared(forest);
   for (auto _ : state)
     with_threads(1, [&] {
-      const links::DirectLight direct = links_drawn_light(prepared, sun_and_sky(), options, nullptr, {});
+      const links::DirectLight direct = drawn_light(prepared, options);
       benchmark::DoNotOptimize(links_light_map(forest, optics, sun_and_sky(), options, prepared, direct, {}));
     });
 }
@@ -102,10 +111,7 @@ void drawn_sun(benchmark::State& state) {
   const Forest forest = crown(static_cast<int>(state.range(0)));
   const LinksOptions options{.links_per_face = 16};
   const LinksPrepared prepared = prepare_links(forest, options, {});
-  for (auto _ : state)
-    with_threads(1, [&] {
-      benchmark::DoNotOptimize(links_drawn_light(prepared, sun_and_sky(), options, nullptr, {}));
-    });
+  for (auto _ : state) with_threads(1, [&] { benchmark::DoNotOptimize(drawn_light(prepared, options)); });
 }
 
 BENCHMARK(further_sun)->Args({40000, 16})->Args({40000, 64})->Unit(benchmark::kMillisecond);
