@@ -95,7 +95,7 @@ PictureScene::PictureScene(const Forest& forest, const PictureLook& look, const 
   load_looks(look);
   reshape_leaves();
   box_ = forest_bounds(forest_);
-  rays_.emplace(this->forest(), RayScene::Options{}, control);
+  rays_.emplace(this->forest(), RayScene::Options{.coordinates = box_}, control);
 }
 
 void PictureScene::load_looks(const PictureLook& look) {

@@ -47,8 +47,8 @@ struct RayScene::State {
 
 namespace {
 
-Vec3 centre_of(const Forest& forest) {
-  const Box bounds = forest_bounds(forest);
+Vec3 centre_of(const Forest& forest, const Box& coordinates) {
+  const Box bounds = coordinates.empty() ? forest_bounds(forest) : coordinates;
   Vec3 centre = bounds.empty() ? Vec3(0, 0, forest.terrain.elevation_m) : bounds.centre();
   if (!forest.period) return centre;
   const Vec2 middle = forest.period->origin_m + 0.5 * forest.period->size_m;
@@ -58,12 +58,12 @@ Vec3 centre_of(const Forest& forest) {
   return {middle.x, middle.y, centre.z + lift};
 }
 
-// Writing out pays where a figure is worth more rays than it takes to build. One copy is written out as fast
-// as it is built.
-bool is_flat_better(std::size_t figures, std::size_t copies, double expected_rays) {
+// Writing out pays where a figure is worth more rays than it takes to build. A forest of
+// one tree is written out as fast as it is built.
+bool is_flat_better(std::size_t figures, std::size_t copies, std::size_t instances, double expected_rays) {
   constexpr std::size_t kMostFigures = 4000000, kMostCopies = 100000;
   constexpr double kFewestRaysPerFigure = 16.0;
-  if (copies == 1) return true;
+  if (copies == 1 && instances == 1) return true;
   return figures <= kMostFigures && copies <= kMostCopies &&
          expected_rays >= kFewestRaysPerFigure * static_cast<double>(figures);
 }
@@ -173,7 +173,7 @@ RayHit ended(const RayEnd& end, const Surroundings& around, const Vec3& ground_n
 }  // namespace
 
 RayScene::State::State(const Forest& forest, const Options& options, const RunControl& control) {
-  centre_m = centre_of(forest);
+  centre_m = centre_of(forest, options.coordinates);
   around = surroundings_of(forest, options, centre_m);
   build(forest, options, control);
   for (const PrototypeScene& f : figures) has_shoots = has_shoots || !f.shoots.empty();
@@ -194,7 +194,8 @@ void RayScene::State::build(const Forest& forest, const Options& options, const 
   }
   copies = copies_of(forest, around, centre_m);
   for (const SceneCopy& copy : copies) wrapped_copies += copy.shift == Cell{} ? 0 : 1;
-  flat = is_flat_better(figures_of(forest, copies), copies.size(), options.expected_rays);
+  flat = is_flat_better(figures_of(forest, copies), copies.size(), forest.instances.size(),
+                        options.expected_rays);
   if (flat) {
     top = build_flat_scene(device, forest, copies, figures, around, centre_m, control);
   } else {

@@ -52,6 +52,9 @@ class RayScene {
     double expected_rays = 0;
     // From this number of trees on a forest that does not repeat is kept in rows of 24 bytes per tree.
     std::size_t table_from = 50'000;
+    // The box whose middle and size fix the origin and rounding of the scene's coordinates; empty: the
+    // forest's. One that a part of the forest shares with the whole gives equal rays equal hits in both.
+    Box coordinates = {};
   };
   // Throws Error(kCancelled) when stopped while building.
   RayScene(const Forest& forest, const Options& options, const RunControl& control = {});
