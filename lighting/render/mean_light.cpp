@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "lighting/render/seen_trees.h"
 #include "lighting/render/shader.h"
 #include "lighting/trace/surface_sampler.h"
 
@@ -35,10 +36,12 @@ double side_area(const WoodSegment& s) {
 // Draws places of a forest: first the instance, then the part of its prototype.
 struct Places {
   const Forest& forest;
+  Box ground;
   std::vector<Lot> wood_of, leaf_of;  // per prototype
   Lot wood, leaves;                   // instances
 
-  explicit Places(const Forest& f) : forest(f), wood_of(f.prototypes.size()), leaf_of(f.prototypes.size()) {
+  Places(const Forest& f, const NearTrees& near)
+      : forest(f), ground(near.box), wood_of(f.prototypes.size()), leaf_of(f.prototypes.size()) {
     std::vector<double> wood_m2(f.prototypes.size()), leaf_m2(f.prototypes.size());
     for (std::size_t p = 0; p < f.prototypes.size(); ++p) {
       for (const WoodSegment& s : f.prototypes[p].wood)
@@ -46,15 +49,17 @@ struct Places {
       for (const FoliageElement& e : f.prototypes[p].foliage)
         leaf_of[p].add(e.area_m2), leaf_m2[p] += e.area_m2;
     }
-    for (const Instance& i : f.instances) {
-      wood.add(wood_m2[i.prototype.value] * i.scale * i.scale);
-      leaves.add(leaf_m2[i.prototype.value] * i.scale * i.scale);
+    for (std::size_t n = 0; n < f.instances.size(); ++n) {
+      const Instance& i = f.instances[n];
+      const double counts = near.is_near[n] ? 1.0 : 0.0;
+      wood.add(counts * wood_m2[i.prototype.value] * i.scale * i.scale);
+      leaves.add(counts * leaf_m2[i.prototype.value] * i.scale * i.scale);
     }
   }
 
-  RayHit ground_point(const PictureScene& scene, RandomStream& random) const {
-    const Vec2 lo = forest.period ? forest.period->origin_m : Vec2(scene.box().lo);
-    const Vec2 size = forest.period ? forest.period->size_m : Vec2(scene.box().size());
+  RayHit ground_point(RandomStream& random) const {
+    const Vec2 lo = forest.period ? forest.period->origin_m : Vec2(ground.lo);
+    const Vec2 size = forest.period ? forest.period->size_m : Vec2(ground.size());
     const double x = random.uniform(), y = random.uniform();
     const Vec2 at = lo + size * Vec2(x, y);
     RayHit hit;
@@ -114,18 +119,18 @@ Vec3 mean_irradiance(const Shader& shader, std::uint64_t seed, const Draw& draw)
 }
 
 // What leaves, wood and ground send to leaves, in the channels of each of two shaders, by the same rays.
-Vec3 scattered_ratio(const Shader& colours, const Shader& grey, const PictureScene& scene,
+Vec3 scattered_ratio(const Shader& colours, const Shader& grey, const ShadingParts& parts,
                      const Places& places) {
   Vec3 coloured(0.0), plain(0.0);
   for (std::uint64_t i = 0; i < 2 * kPoints; ++i) {
     RandomStream random(kLeafSeed, i, RandomPurpose::kCamera);
     const RayHit leaf = places.leaf_point(random);
     const Vec3 direction = trace::cosine_direction(leaf.normal, random);
-    const RayHit met =
-        scene.closest_hit(leaf.on_original_m, direction, {leaf.kind, leaf.front, leaf.instance, leaf.local});
-    if (met.kind == HitKind::kSky) continue;
-    coloured += colours.gathered(met, direction);
-    plain += grey.gathered(met, direction);
+    const RayHit met = parts.scene.closest_hit(leaf.on_original_m, direction,
+                                               {leaf.kind, leaf.front, leaf.instance, leaf.local});
+    if (met.kind == HitKind::kSky || met.distance_m > parts.gather_reach_m) continue;
+    coloured += colours.gathered(met, leaf.on_original_m, direction);
+    plain += grey.gathered(met, leaf.on_original_m, direction);
   }
   for (int c = 0; c < 3; ++c) coloured[c] = plain[c] > 0.0 ? coloured[c] / plain[c] : 1.0;
   return coloured;
@@ -133,18 +138,18 @@ Vec3 scattered_ratio(const Shader& colours, const Shader& grey, const PictureSce
 
 }  // namespace
 
-MeanLight find_mean_light(const ShadingParts& parts, const ShadingParts& grey_parts) {
-  const Places places(parts.scene.forest());
+MeanLight find_mean_light(const ShadingParts& parts, const ShadingParts& grey_parts, const NearTrees& near) {
+  const Places places(parts.scene.forest(), near);
   MeanLight mean, grey_mean;
   mean.ground_w_m2 = mean.wood_w_m2 = parts.light.open_ground();
   grey_mean.ground_w_m2 = grey_mean.wood_w_m2 = grey_parts.light.open_ground();
-  if (parts.scene.box().empty()) return mean;
+  if (near.box.empty()) return mean;
   for (int round = 0; round < kRounds; ++round) {
     const Shader shader(parts, mean), grey(grey_parts, grey_mean);
-    if (!places.leaves.empty()) mean.scatter_tint = scattered_ratio(shader, grey, parts.scene, places);
+    if (!places.leaves.empty()) mean.scatter_tint = scattered_ratio(shader, grey, parts, places);
     for (const auto& [from, to] : {std::pair{&shader, &mean}, std::pair{&grey, &grey_mean}}) {
-      to->ground_w_m2 = mean_irradiance(
-          *from, kGroundSeed, [&](RandomStream& random) { return places.ground_point(parts.scene, random); });
+      to->ground_w_m2 = mean_irradiance(*from, kGroundSeed,
+                                        [&](RandomStream& random) { return places.ground_point(random); });
       if (!places.wood.empty())
         to->wood_w_m2 = mean_irradiance(*from, kWoodSeed,
                                         [&](RandomStream& random) { return places.wood_point(random); });

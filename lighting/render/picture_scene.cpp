@@ -97,7 +97,7 @@ PictureScene::PictureScene(const Forest& forest, const PictureLook& look, const 
   if (!details.casts.empty()) shown_ = show_trees(forest, details, control);
   reshape_leaves();
   box_ = forest_bounds(forest_);
-  RayScene::Options options{.shoots = look.shoots, .needles = look.needles};
+  RayScene::Options options{.shoots = look.shoots, .needles = look.needles, .coordinates = box_};
   if (shown_) options.casts = shown_->casts;
   rays_.emplace(this->forest(), options, control);
 }

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "lighting/render/camera_rays.h"
 #include "lighting/render/path_tracer.h"
 #include "lighting/render/render_passes.h"
+#include "lighting/render/seen_trees.h"
 #include "lighting/render/shader.h"
 #include "sim/base/error.h"
 
@@ -168,10 +170,15 @@ Image render(const Forest& forest, const OpticsTable& optics, const LightMap& ma
   const PictureLight grey_light(stage.light, stage.band, grey);
   const SurfaceTable grey_surfaces(stage.scene, optics, stage.band, grey, request.look);
   const BandLightMap& band = map.bands[stage.band];
-  const ShadingParts parts{stage.scene,  index,           band, stage.surfaces, stage.sources,
-                           stage.colour, request.leaf_sun};
-  const ShadingParts grey_parts{stage.scene, index, band, grey_surfaces, grey_light, grey, request.leaf_sun};
-  const Shader shader(parts, find_mean_light(parts, grey_parts));
+  const double reach_m =
+      forest.period ? std::numeric_limits<double>::infinity() : gather_reach_m(stage.scene.box());
+  const ShadingParts parts{stage.scene,      index,  band, stage.surfaces, stage.sources, stage.colour,
+                           request.leaf_sun, reach_m};
+  const ShadingParts grey_parts{stage.scene,      index,  band, grey_surfaces, grey_light, grey,
+                                request.leaf_sun, reach_m};
+  const NearTrees near =
+      near_trees(request.camera, instance_boxes(outline_of(forest)), forest.period.has_value());
+  const Shader shader(parts, find_mean_light(parts, grey_parts, near));
   const int samples = samples_per_unit(request);
   const UnitSampler sample = unit_sampler(
       stage, request, samples, [&](const CameraRay& ray, PathSamples& numbers, std::uint8_t cast) {

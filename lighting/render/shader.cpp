@@ -71,13 +71,34 @@ Vec3 Shader::irradiance(const RayHit& hit, PathSamples& numbers) const {
   Surface white;
   white.normal = hit.normal;
   white.reflect = Vec3(1.0);
-  return kPi * (gathered(met, direction) + sun_scattered(hit, white, hit.normal, {sun_x, sun_y}));
+  return kPi * (gathered(met, hit.on_original_m, direction) +
+                sun_scattered(hit, white, hit.normal, {sun_x, sun_y}));
 }
 
-Vec3 Shader::gathered(const RayHit& hit, const Vec3& direction) const {
+Vec3 Shader::gathered(const RayHit& hit, const Vec3& origin_m, const Vec3& direction) const {
   if (hit.kind == HitKind::kSky) return parts_.light.sky(direction);
+  if (hit.distance_m > parts_.gather_reach_m) return beyond_reach(origin_m, direction);
   if (hit.kind == HitKind::kFoliage) return leaf_stored(hit);
-  if (hit.kind != HitKind::kGround) return parts_.surfaces.at(hit).reflect / kPi * mean_.wood_w_m2;
+  if (hit.kind == HitKind::kGround) return off_ground(hit);
+  return parts_.surfaces.at(hit).reflect / kPi * mean_.wood_w_m2;
+}
+
+// As if no tree stood there.
+Vec3 Shader::beyond_reach(const Vec3& origin_m, const Vec3& direction) const {
+  const Terrain& terrain = parts_.scene.forest().terrain;
+  RayHit ground;
+  ground.kind = HitKind::kGround;
+  ground.front = true;
+  ground.normal = terrain.normal();
+  const double falls = -glm::dot(direction, ground.normal);
+  if (falls <= 0.0) return parts_.light.sky(direction);
+  const double height_m = ground.normal.z * (origin_m.z - terrain.height_at(origin_m.x, origin_m.y));
+  ground.position_m = origin_m + std::max(0.0, height_m) / falls * direction;
+  ground.on_original_m = ground.position_m;
+  return off_ground(ground);
+}
+
+Vec3 Shader::off_ground(const RayHit& hit) const {
   if (!hit.front) return Vec3(0.0);
   const Vec3 light =
       parts_.scene.is_under_trees(hit.position_m) ? mean_.ground_w_m2 : parts_.light.open_ground();

@@ -5,10 +5,13 @@
 // Sky and scattered light are constant over the element; sunlight is that too (LeafSun::kStored) or asked by
 // one shadow ray from the place seen (kTraced). Scattered light has the colour of MeanLight.
 // Wood and ground have no stored light. L = albedo / pi * (sun through one shadow ray + what one
-// cosine-distributed ray meets: the sky, leaves with their stored light, and wood or ground in the mean light
-// of all wood and ground, mean_light.h; ground beyond the forest's box in the open).
-// Sky: its radiance, and the disc of the sun for who looks at it. A sun of no size has no disc.
+// cosine-distributed ray meets within gather_reach_m (beyond: sky or ground): the sky, leaves with their
+// stored light, and wood or ground in the mean light of all wood and ground, mean_light.h; ground beyond the
+// forest's box in the open). Sky: its radiance, and the disc of the sun for who looks at it. A sun of no size
+// has no disc.
 #pragma once
+
+#include <limits>
 
 #include "lighting/base/light_map.h"
 #include "lighting/render/mean_light.h"
@@ -27,6 +30,7 @@ struct ShadingParts {
   const PictureLight& light;
   PictureColour colour;
   LeafSun leaf_sun = LeafSun::kTraced;
+  double gather_reach_m = std::numeric_limits<double>::infinity();  // seen_trees.h
 };
 
 // Const and safe from many threads.
@@ -36,8 +40,8 @@ class Shader {
 
   // What comes along a camera ray that met `hit`.
   Vec3 radiance(const RayHit& hit, const Vec3& direction, PathSamples& numbers) const;
-  // What a gather ray that met `hit` brings: no ray is cast for it.
-  Vec3 gathered(const RayHit& hit, const Vec3& direction) const;
+  // What a gather ray from `origin_m` that met `hit` brings: no ray is cast for it.
+  Vec3 gathered(const RayHit& hit, const Vec3& origin_m, const Vec3& direction) const;
   // Irradiance of the side of wood or ground that was met.
   Vec3 irradiance(const RayHit& hit, PathSamples& numbers) const;
   std::size_t element_of(const RayHit& hit) const;
@@ -49,6 +53,8 @@ class Shader {
   Vec3 leaf_lit(const RayHit& hit, const Light& light) const;
   Vec3 sun_scattered(const RayHit& hit, const Surface& surface, const Vec3& to_viewer,
                      const Vec2& number) const;
+  Vec3 beyond_reach(const Vec3& origin_m, const Vec3& direction) const;
+  Vec3 off_ground(const RayHit& hit) const;
   Vec3 diffuse(const FaceLight& light) const;
   Vec3 total(const FaceLight& light) const;
   const ElementLight& light_of(const RayHit& hit) const;

@@ -61,8 +61,8 @@ struct RayScene::State {
 
 namespace {
 
-Vec3 centre_of(const Forest& forest) {
-  const Box bounds = forest_bounds(forest);
+Vec3 centre_of(const Forest& forest, const Box& coordinates) {
+  const Box bounds = coordinates.empty() ? forest_bounds(forest) : coordinates;
   Vec3 centre = bounds.empty() ? Vec3(0, 0, forest.terrain.elevation_m) : bounds.centre();
   if (!forest.period) return centre;
   const Vec2 middle = forest.period->origin_m + 0.5 * forest.period->size_m;
@@ -72,12 +72,13 @@ Vec3 centre_of(const Forest& forest) {
   return {middle.x, middle.y, centre.z + lift};
 }
 
-// Writing out pays where a figure is worth more rays than it takes to build. One copy is written out as fast
-// as it is built. Needles are too many to be written out for every tree.
-bool is_flat_better(std::size_t figures, std::size_t copies, const RayScene::Options& options) {
+// Writing out pays where a figure is worth more rays than it takes to build. A forest of one tree is written
+// out as fast as it is built. Needles are too many to be written out for every tree.
+bool is_flat_better(std::size_t figures, std::size_t copies, std::size_t instances,
+                    const RayScene::Options& options) {
   constexpr std::size_t kMostFigures = 4000000, kMostCopies = 100000;
   constexpr double kFewestRaysPerFigure = 16.0;
-  if (copies == 1) return true;
+  if (copies == 1 && instances == 1) return true;
   if (options.shoots == ShootForm::kNeedles) return false;
   return figures <= kMostFigures && copies <= kMostCopies &&
          options.expected_rays >= kFewestRaysPerFigure * static_cast<double>(figures);
@@ -198,7 +199,7 @@ RayHit ended(const RayEnd& end, const Surroundings& around, const Vec3& ground_n
 }  // namespace
 
 RayScene::State::State(const Forest& forest, const Options& options, const RunControl& control) {
-  centre_m = centre_of(forest);
+  centre_m = centre_of(forest, options.coordinates);
   around = surroundings_of(forest, options, centre_m);
   build(forest, options, control);
   for (const PrototypeScene& f : figures) has_shoots = has_shoots || !f.shoots.empty();
@@ -229,11 +230,11 @@ void RayScene::State::build(const Forest& forest, const Options& options, const 
   PlacedTrees& first = casts[0];
   if (options.casts.empty() && !in_table) {
     first.copies = copies_of(forest, own_prototypes(forest), around, centre_m);
-    first.flat = is_flat_better(figures_of(forest, first.copies), first.copies.size(), options);
+    first.flat = is_flat_better(figures_of(forest, first.copies), first.copies.size(),
+                                forest.instances.size(), options);
   }
   if (first.flat) {
-    first.top =
-        build_flat_scene(device, forest, first.copies, figures, around, centre_m, options, control);
+    first.top = build_flat_scene(device, forest, first.copies, figures, around, centre_m, options, control);
   } else {
     build_prototypes(forest, options, control);
     const std::vector<PrototypeId> own = in_table ? std::vector<PrototypeId>{} : own_prototypes(forest);

@@ -81,6 +81,9 @@ class RayScene {
     // rays of cast c, in place of the instance's own prototype. For pictures whose samples look at different
     // prototypes of one tree, which share their structures. None: one cast, of the instances' prototypes.
     std::vector<std::vector<PrototypeId>> casts{};
+    // The box whose middle and size fix the origin and rounding of the scene's coordinates; empty: the
+    // forest's. One that a part of the forest shares with the whole gives equal rays equal hits in both.
+    Box coordinates = {};
   };
   // Throws Error(kCancelled) when stopped while building.
   RayScene(const Forest& forest, const Options& options, const RunControl& control = {});

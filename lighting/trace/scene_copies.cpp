@@ -112,7 +112,9 @@ Surroundings surroundings_of(const Forest& forest, const RayScene::Options& opti
   }
   const Occupied space = occupied(forest, s, centre_m);
   const double width_m = s.periodic ? std::max(s.cell_size.x, s.cell_size.y) : space.reach_m;
-  s.rounding_m = 4e-7 * std::max(width_m, space.highest_m - space.lowest_m);
+  const Vec3 stated = options.coordinates.size();
+  s.rounding_m = 4e-7 * (options.coordinates.empty() ? std::max(width_m, space.highest_m - space.lowest_m)
+                                                     : std::max({stated.x, stated.y, stated.z}));
   s.floor_m = space.lowest_m - s.rounding_m;
   s.ceiling_m = space.highest_m + s.rounding_m;
   return s;

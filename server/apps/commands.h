@@ -31,7 +31,8 @@ void run_light(const LightOptions& options, const RunControl& control);
 
 struct RenderOptions {
   std::filesystem::path forest, scene, light_map, png, exr;
-  std::string mode;  // empty: as the scene file says
+  std::string mode;      // empty: as the scene file says
+  double far_light = 0;  // path-traced: share of light that trees left in the file may cost
 };
 void run_render(const RenderOptions& options, const RunControl& control);
 

@@ -54,6 +54,10 @@ void add_render(CLI::App& app, RenderOptions& o) {
   c->add_option("--light-map", o.light_map, "Light map of that forest (.nc); path-traced pictures need none");
   c->add_option("--scene", o.scene, "Scene file (TOML) with [light] and, if wanted, [camera]")->required();
   c->add_option("--mode", o.mode, "light_map or path_traced; left out: as the scene file's [render] says");
+  c->add_option(
+       "--far-light", o.far_light,
+       "Path-traced: share of a surface's light that far trees may be left out for (0: none, to 0.5)")
+      ->check(CLI::Range(0.0, 0.5));
   c->add_option("--png", o.png, "Picture to write (.png, sRGB)");
   c->add_option("--exr", o.exr,
                 "Layers to write (.exr: RGB, depth, normal, instance id, irradiance, standard error)");

@@ -8,10 +8,10 @@
 #include "lighting/render/render_config.h"
 #include "server/apps/commands.h"
 #include "server/apps/outputs.h"
+#include "server/apps/picture_forest.h"
 #include "server/apps/scene_file.h"
 #include "server/apps/terminal.h"
 #include "sim/base/error.h"
-#include "sim/grid/forest_file.h"
 
 namespace sunfleck {
 namespace {
@@ -30,26 +30,27 @@ double median_noise(const Image& image) {
 }
 
 // A picture's leaves, ground and sky must be lit by the same sun, and the leaves must be this forest's.
-void check_belongs(const LightMap& map, const Forest& forest, const LightRequest& light,
+void check_belongs(const LightMap& map, const PictureForest& picture, const LightRequest& light,
                    const std::string& where) {
-  if (map.provenance.forest_hash != content_hash(forest))
+  if (map.provenance.forest_hash != picture.content_hash)
     throw_invalid(where, "was made for another forest (" + map.provenance.forest_hash + ")",
-                  "a light map of this one (" + content_hash(forest) + ")");
-  for (const auto& [name, value] : describe_light(forest, light))
+                  "a light map of this one (" + picture.content_hash + ")");
+  for (const auto& [name, value] : describe_light(picture.forest, light))
     for (const auto& [made_name, made_value] : map.provenance.settings)
       if (name == made_name && value != made_value)
         throw_invalid(where, "was made with " + name + " = " + made_value, "the scene file says " + value);
 }
 
-Image make_image(const RenderOptions& o, const SceneFile& scene, const Forest& forest, RenderMode mode,
-                 const RenderRequest& request, const RunControl& control) {
-  const OpticsTable optics(forest, scene.light->optics);
-  if (mode == RenderMode::kPathTraced) return render_path_traced(forest, optics, request, control);
+Image make_image(const RenderOptions& o, const SceneFile& scene, const PictureForest& picture,
+                 RenderMode mode, const RunControl& control) {
+  const OpticsTable optics(picture.forest, scene.light->optics);
+  if (mode == RenderMode::kPathTraced)
+    return render_path_traced(picture.forest, optics, picture.request, control);
   if (o.light_map.empty())
     throw_invalid("--light-map", "is missing", "the light map of this forest, or --mode path_traced");
-  const LightMap map = load_netcdf(o.light_map);
-  check_belongs(map, forest, *scene.light, o.light_map.string());
-  return render(forest, optics, map, request, control);
+  LightMap map = load_netcdf(o.light_map);
+  check_belongs(map, picture, *scene.light, o.light_map.string());
+  return render(picture.forest, optics, picture.light(std::move(map)), picture.request, control);
 }
 
 void print_summary(const Image& image, RenderMode mode, double wall_s) {
@@ -80,21 +81,24 @@ void run_render(const RenderOptions& o, const RunControl& control) {
   check_outputs("render", {{"--png", o.png, ".png"}, {"--exr", o.exr, ".exr"}});
   const SceneFile scene = read_scene_file(o.scene);
   if (!scene.light) throw_invalid(o.scene.string(), "has no [light] table", "the sun and sky of the picture");
-  const Forest forest = load_forest(o.forest);
   RenderSettings settings = scene.render.value_or(RenderSettings{});
   if (!o.mode.empty()) settings.mode = render_mode_named(o.mode, "--mode");
   settings.effort.keep_when_stopped = settings.mode == RenderMode::kPathTraced;
   if (settings.look.shoots != ShootForm::kVolume)
     settings.look.needles = needle_kinds(SpeciesLibrary::load(find_configs({}) / "species"));
-  const RenderRequest request =
-      picture_request(settings, scene.camera ? *scene.camera : default_camera(forest_bounds(forest)),
-                      checked(scene.light->light, scene.light->optics.bands.size()));
+  const auto began_loading = std::chrono::steady_clock::now();
+  const PictureForest picture = load_for_picture(o.forest, settings.mode, o.far_light, [&](const Box& box) {
+    return picture_request(settings, scene.camera ? *scene.camera : default_camera(box),
+                           checked(scene.light->light, scene.light->optics.bands.size()));
+  });
   const auto began = std::chrono::steady_clock::now();
-  const Image image = make_image(o, scene, forest, settings.mode, request, control);
+  const Image image = make_image(o, scene, picture, settings.mode, control);
   const std::chrono::duration<double> wall_s = std::chrono::steady_clock::now() - began;
   if (!o.png.empty()) save_png(image, o.png, settings.tone);
   if (!o.exr.empty()) save_exr(image, o.exr);
   finish_progress();
+  const std::chrono::duration<double> load_s = began - began_loading;
+  std::printf("loaded       %s; %.1f s\n", picture.note.c_str(), load_s.count());
   print_summary(image, settings.mode, wall_s.count());
   if (settings.detail.mode != DetailMode::kFull) print_detail(image);
   for (const auto& path : {o.png, o.exr})

@@ -7,6 +7,7 @@
 #include "sim/base/contract.h"
 #include "sim/base/error.h"
 #include "sim/base/sha256.h"
+#include "sim/forest/forest_outline.h"
 
 namespace sunfleck {
 namespace {
@@ -109,28 +110,6 @@ void add_prototype(Sha256& hash, const Prototype& prototype) {
   hash.add_value(prototype.stated_dbh_m);
 }
 
-// What holds a prototype however it is turned: its box, and the radius of a cylinder round its stem axis.
-struct Outline {
-  Box box;
-  double reach_m;
-};
-
-// The part of the turned box that lies within the cylinder, moved to where the instance stands.
-Box instance_bounds(const Instance& instance, const Outline& outline) {
-  const Box& box = outline.box;
-  Box bounds;
-  for (int corner = 0; corner < 8; ++corner)
-    bounds.include(
-        world_from_tree(instance, {corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y,
-                                   corner & 4 ? box.hi.z : box.lo.z}));
-  const double reach_m = static_cast<double>(instance.scale) * outline.reach_m;
-  for (int axis = 0; axis < 2; ++axis) {
-    bounds.lo[axis] = std::max(bounds.lo[axis], instance.position_m[axis] - reach_m);
-    bounds.hi[axis] = std::min(bounds.hi[axis], instance.position_m[axis] + reach_m);
-  }
-  return bounds;
-}
-
 }  // namespace
 
 // These structs are hashed and stored as bytes: they must have no padding.
@@ -185,13 +164,16 @@ WorldElement world_element(const Forest& forest, std::size_t instance_index, std
 }
 
 Box forest_bounds(const Forest& forest) {
-  std::vector<Outline> outlines;
-  for (const Prototype& p : forest.prototypes)
-    outlines.push_back({prototype_bounds(p), prototype_reach_m(p)});
+  std::vector<PrototypeOutline> outlines;
+  for (const Prototype& p : forest.prototypes) {
+    PrototypeOutline& outline = outlines.emplace_back();
+    outline.bounds = prototype_bounds(p);
+    outline.reach_m = prototype_reach_m(p);
+  }
   Box bounds;
   for (const Instance& instance : forest.instances) {
-    const Outline& outline = outlines[instance.prototype.value];
-    if (!outline.box.empty()) bounds.include(instance_bounds(instance, outline));
+    const PrototypeOutline& outline = outlines[instance.prototype.value];
+    if (!outline.bounds.empty()) bounds.include(instance_box(instance, outline));
   }
   return bounds;
 }
@@ -238,6 +220,18 @@ std::string content_hash(const Forest& forest) {
     for (const double x : {forest.period->origin_m.x, forest.period->origin_m.y, forest.period->size_m.x,
                            forest.period->size_m.y})
       hash.add_value(x);
+  return hash.hex();
+}
+
+std::string content_hash(const Prototype& prototype) {
+  Sha256 hash;
+  add_prototype(hash, prototype);
+  return hash.hex();
+}
+
+std::string content_hash(const std::vector<Instance>& instances) {
+  Sha256 hash;
+  add_all(hash, instances);
   return hash.hex();
 }
 

@@ -36,13 +36,39 @@ Material material_from(const json& text) {
   return material;
 }
 
+json json_of(const Vec3& v) { return {v.x, v.y, v.z}; }
+
+Vec3 vector_from(const json& text) {
+  return {text.at(0).get<double>(), text.at(1).get<double>(), text.at(2).get<double>()};
+}
+
+// Of a prototype without leaves or wood no bounds.
+json json_of(const PrototypeOutline& outline) {
+  json text = {{"reach_m", outline.reach_m}, {"longest_leaf_m", outline.longest_leaf_m}};
+  if (outline.bounds.empty()) return text;
+  text["lo_m"] = json_of(outline.bounds.lo);
+  text["hi_m"] = json_of(outline.bounds.hi);
+  return text;
+}
+
+PrototypeOutline outline_from(const json& text, const PrototypeCounts& counts) {
+  PrototypeOutline outline;
+  outline.reach_m = text.at("reach_m").get<double>();
+  outline.longest_leaf_m = text.at("longest_leaf_m").get<double>();
+  outline.foliage_elements = counts.foliage;
+  if (text.contains("lo_m")) outline.bounds = {vector_from(text.at("lo_m")), vector_from(text.at("hi_m"))};
+  return outline;
+}
+
 json json_of(const Prototype& prototype) {
   return {{"name", prototype.name},
           {"materials", prototype.materials},
           {"stated_dbh_m", prototype.stated_dbh_m},
           {"foliage_elements", prototype.foliage.size()},
           {"wood_segments", prototype.wood.size()},
-          {"wood_triangles", prototype.wood_mesh.size()}};
+          {"wood_triangles", prototype.wood_mesh.size()},
+          {"outline", json_of(outline_of(prototype))},
+          {"sha256", content_hash(prototype)}};
 }
 
 Prototype prototype_from(const json& text) {
@@ -88,6 +114,7 @@ std::string text_of_description(const Forest& forest) {
                {"name", forest.name},
                {"content_sha256", content_hash(forest)},
                {"instances", forest.instances.size()},
+               {"instances_sha256", content_hash(forest.instances)},
                {"terrain", json_of(forest.terrain)},
                {"materials", json::array()},
                {"prototypes", json::array()}};
@@ -114,10 +141,15 @@ ForestDescription description_from_text(const std::string& text) {
   for (const json& prototype : read.at("prototypes")) {
     forest.prototypes.push_back(prototype_from(prototype));
     description.counts.push_back(counts_from(prototype));
+    if (!prototype.contains("outline")) continue;
+    description.outlines.push_back(outline_from(prototype.at("outline"), description.counts.back()));
+    description.prototype_hashes.push_back(prototype.at("sha256").get<std::string>());
   }
   forest.terrain = terrain_from(read.at("terrain"));
   if (read.contains("period")) forest.period = period_from(read.at("period"));
   description.instances = read.at("instances").get<std::uint64_t>();
+  if (read.contains("instances_sha256"))
+    description.instances_hash = read.at("instances_sha256").get<std::string>();
   description.content_hash = read.at("content_sha256").get<std::string>();
   return description;
 }

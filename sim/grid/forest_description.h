@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/forest/forest.h"
+#include "sim/forest/forest_outline.h"
 
 namespace sunfleck {
 
@@ -19,6 +19,11 @@ struct ForestDescription {
   std::vector<PrototypeCounts> counts;  // one per prototype
   std::uint64_t instances = 0;
   std::string content_hash;  // of the whole forest
+  // Of files since 2026-11 only, else empty: what the prototypes fill, and hashes of the parts, so that a
+  // part can be read and checked alone.
+  std::vector<PrototypeOutline> outlines;
+  std::vector<std::string> prototype_hashes;
+  std::string instances_hash;
 };
 
 // JSON; numbers keep all their bits. Throws Error(kInvalidInput) if a name is not UTF-8.

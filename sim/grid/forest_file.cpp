@@ -5,11 +5,11 @@
 #include "sim/grid/forest_file.h"
 
 #include <limits>
-#include <map>
 #include <stdexcept>
 
 #include "sim/base/error.h"
 #include "sim/grid/forest_description.h"
+#include "sim/grid/forest_parts.h"
 #include "sim/grid/forest_tables.h"
 #include "sim/grid/leaf_area_grid.h"
 #include "sim/grid/sealed_file.h"
@@ -45,60 +45,18 @@ VdbContent content_of(const Forest& forest) {
   return content;
 }
 
-class TablesByName {
- public:
-  explicit TablesByName(std::vector<PointTable> tables) {
-    for (PointTable& table : tables) by_name_[table.name] = std::move(table);
-  }
-  // The rows of a grid by `convert`; none are stored for `count` 0.
-  template <class Convert>
-  auto rows(const std::string& name, std::uint64_t count, Convert convert) const {
-    decltype(convert(PointTable{})) rows;
-    if (count == 0) return rows;
-    const auto found = by_name_.find(name);
-    if (found == by_name_.end()) throw std::runtime_error("grid " + name + " is missing");
-    rows = convert(found->second);
-    if (rows.size() != count) throw std::runtime_error("grid " + name + " lacks rows");
-    return rows;
-  }
-
- private:
-  std::map<std::string, PointTable> by_name_;
-};
-
 Forest forest_of(VdbContent content) {
   ForestDescription description = description_from_text(content.description);
   const TablesByName tables(std::move(content.tables));
   Forest& forest = description.forest;
   for (std::size_t p = 0; p < forest.prototypes.size(); ++p) {
-    Prototype& prototype = forest.prototypes[p];
-    const PrototypeCounts& counts = description.counts[p];
-    prototype.foliage = tables.rows(grid_name(kElementsGrid, p), counts.foliage, foliage_from);
-    prototype.wood = tables.rows(grid_name(kWoodGrid, p), counts.wood, wood_from);
-    prototype.wood_mesh = tables.rows(grid_name(kWoodMeshGrid, p), counts.wood_mesh, wood_mesh_from);
+    fill_prototype(tables, p, description.counts[p], forest.prototypes[p]);
   }
   forest.instances = tables.rows(kInstancesGrid, description.instances, instances_from);
   if (content_hash(forest) != description.content_hash) {
     throw std::runtime_error("what was read does not match the stored content hash");
   }
   return std::move(forest);
-}
-
-// Runs `read` and turns whatever it throws into our error.
-template <class Read>
-auto read_or_explain(const std::filesystem::path& path, Read read) {
-  std::string problem;
-  try {
-    return read();
-  } catch (const Error&) {
-    throw;
-  } catch (const std::exception& failure) {
-    problem = failure.what();
-  } catch (...) {
-    problem = "unknown failure of the reader";
-  }
-  throw_invalid(path.string(), "this is no forest that can be read (" + problem + ")",
-                "give a .vdb file that sunfleck grow or import wrote");
 }
 
 }  // namespace

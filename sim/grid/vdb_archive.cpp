@@ -219,6 +219,22 @@ VdbContent read_vdb(const std::filesystem::path& path) {
   return content;
 }
 
+VdbContent read_vdb(const std::filesystem::path& path,
+                    const std::function<bool(const std::string&)>& wanted) {
+  initialize_openvdb();
+  openvdb::io::File file(path.string());
+  file.open(/*delayLoad=*/false);
+  VdbContent content;
+  content.description = file.getMetadata()->metaValue<std::string>(kDescription);
+  for (auto name = file.beginName(); name != file.endName(); ++name) {
+    if (!wanted(name.gridName())) continue;
+    const auto grid = openvdb::gridPtrCast<PointDataGrid>(file.readGrid(name.gridName()));
+    if (!grid) throw std::runtime_error("grid " + name.gridName() + " is no point grid");
+    content.tables.push_back(table_of(*grid));
+  }
+  return content;
+}
+
 std::vector<GridSummary> summarize_vdb(const std::filesystem::path& path) {
   initialize_openvdb();
   openvdb::io::File file(path.string());

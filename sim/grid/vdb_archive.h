@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <iosfwd>
 #include <string>
 #include <vector>
@@ -23,6 +24,9 @@ void write_vdb(const VdbContent& content, std::ostream& out);
 // Reads description and tables (rows in the order in which they were written); density grids are derived
 // data and stay unread. Throws std::exception of many kinds on a file that is not what write_vdb wrote.
 VdbContent read_vdb(const std::filesystem::path& path);
+
+// The same of the tables whose names are wanted; nothing of the others is read.
+VdbContent read_vdb(const std::filesystem::path& path, const std::function<bool(const std::string&)>& wanted);
 
 // Grid metadata only.
 std::vector<GridSummary> summarize_vdb(const std::filesystem::path& path);
