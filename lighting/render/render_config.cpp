@@ -45,6 +45,11 @@ RenderMode render_mode_named(const std::string& word, const std::string& where) 
   throw_invalid(where, "is '" + word + "'", "light_map or path_traced");
 }
 
+RenderRequest render_request(const RenderSettings& settings, const Camera& camera,
+                             const Illumination& light) {
+  return {camera, light, settings.look, settings.effort, settings.leaf_sun};
+}
+
 RenderSettings read_render_settings(const ConfigTable& table) {
   RenderSettings s;
   s.mode = render_mode_named(table.text_or("mode", "light_map"), table.where("mode"));

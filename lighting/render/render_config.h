@@ -30,4 +30,8 @@ struct RenderSettings {
 // files, relative to the scene file). Others are refused.
 RenderSettings read_render_settings(const ConfigTable& table);
 
+// What the settings say of a picture with that camera and light: the one place that copies them, for pictures
+// made here and for others alike.
+RenderRequest render_request(const RenderSettings& settings, const Camera& camera, const Illumination& light);
+
 }  // namespace sunfleck

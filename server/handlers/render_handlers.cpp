@@ -111,8 +111,7 @@ RenderCall::Next files_then_summary(std::vector<ImageFile> encoded, v1::RenderSu
 Image picture_of(const RenderTask& task, const Forest& forest, const LightMap* map, RenderStop& stop,
                  RenderCall& call, const RunControl& control) {
   const OpticsTable optics(forest, task.light.optics);
-  const RenderRequest request{task.camera, task.light.light, task.render.look, task.render.effort,
-                              task.render.leaf_sun};
+  const RenderRequest request = render_request(task.render, task.camera, task.light.light);
   const RunControl until_stopped{stop.token(), control.progress};
   if (task.stop_after_s > 0) stop.after(task.stop_after_s);
   try {

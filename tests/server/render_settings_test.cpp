@@ -67,7 +67,7 @@ class RenderSettingsServed : public ::testing::Test {
     static const Forest forest = grow_forest(row_of_trees(3, 300), species(), {});
     static const LightMap map = compute_light_map(forest, noon(Method::kSppG), {}, {});
     const OpticsTable optics(forest, light.optics);
-    const RenderRequest request{camera, light.light, s.look, s.effort, s.leaf_sun};
+    const RenderRequest request = render_request(s, camera, light.light);
     return s.mode == RenderMode::kPathTraced ? render_path_traced(forest, optics, request, {})
                                              : render(forest, optics, map, request, {});
   }
