@@ -1,6 +1,8 @@
 #include "lighting/render/material_look.h"
 
+#include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "sim/base/error.h"
 #include "sim/base/random.h"
@@ -11,10 +13,15 @@ namespace {
 constexpr int kMeanSide = 256;  // points per side that means over a leaf are taken at
 constexpr double kStops = 2.0;  // optical depth of a thickness of 1
 
-std::optional<TextureImage> load(const std::filesystem::path& path, TextureKind kind,
-                                 const std::string& where, const char* key) {
-  if (path.empty()) return std::nullopt;
-  return load_texture(path, kind, where.empty() ? key : where + "." + key);
+std::optional<TextureImage> load(const MaterialTextures& textures, const char* name) {
+  const auto slot = std::find_if(kTextureSlots.begin(), kTextureSlots.end(),
+                                 [&](const TextureSlot& s) { return std::string_view(s.name) == name; });
+  const std::string where = textures.where.empty() ? name : textures.where + "." + name;
+  const auto given = textures.given.find(name);
+  if (given != textures.given.end()) return decoded(*given->second, slot->kind, where);
+  const std::filesystem::path& file = textures.*slot->file;
+  if (file.empty()) return std::nullopt;
+  return load_texture(file, slot->kind, where);
 }
 
 // Leaf images stand upright: x along the leaf is upwards in the image, y > 0 (left of the tip) is left.
@@ -66,12 +73,11 @@ MaterialLook::MaterialLook(const PictureLook& look, const std::string& material,
       patterns_(look.patterns),
       bark_width_m_(look.bark_width_m) {
   if (textures != nullptr) {
-    const MaterialTextures& t = *textures;
-    alpha_ = load(t.leaf_alpha, TextureKind::kNumbers, t.where, "leaf_alpha");
-    reflectance_ = load(t.leaf_reflectance, TextureKind::kColour, t.where, "leaf_reflectance");
-    thickness_ = load(t.leaf_thickness, TextureKind::kNumbers, t.where, "leaf_thickness");
-    normal_ = load(t.leaf_normal, TextureKind::kNumbers, t.where, "leaf_normal");
-    bark_ = load(t.bark, TextureKind::kColour, t.where, "bark");
+    alpha_ = load(*textures, "leaf_alpha");
+    reflectance_ = load(*textures, "leaf_reflectance");
+    thickness_ = load(*textures, "leaf_thickness");
+    normal_ = load(*textures, "leaf_normal");
+    bark_ = load(*textures, "bark");
   }
   if (alpha_)
     aspect_ = static_cast<double>(alpha_->height_px) / alpha_->width_px;
@@ -79,7 +85,8 @@ MaterialLook::MaterialLook(const PictureLook& look, const std::string& material,
     aspect_ = natural_aspect(outline_);
   take_means();
   if (share_ <= 0.0)
-    throw_invalid(textures->where, "'" + textures->leaf_alpha.string() + "' is transparent everywhere",
+    throw_invalid(textures->where,
+                  "leaf_alpha '" + textures->leaf_alpha.string() + "' is transparent everywhere",
                   "an image with a leaf in it");
 }
 

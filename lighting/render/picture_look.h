@@ -8,11 +8,15 @@
 // over the leaf, the specular part is taken out of the diffuse one. Light maps stay as they are.
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "lighting/render/leaf_outline.h"
+#include "lighting/render/texture_image.h"
 #include "lighting/trace/ray_scene.h"
 
 namespace sunfleck {
@@ -27,7 +31,21 @@ struct MaterialTextures {
   std::filesystem::path leaf_normal;       // tangent space, 0.5 0.5 1 flat
   std::filesystem::path bark;              // colour, relative
   std::string where;                       // of this entry in its file, for messages
+  // Pixels in place of files, by the names above ("leaf_alpha", "bark"): of a request from elsewhere.
+  std::map<std::string, std::shared_ptr<const TexturePixels>> given;
 };
+
+struct TextureSlot {
+  const char* name;
+  TextureKind kind;
+  std::filesystem::path MaterialTextures::*file;
+};
+inline constexpr std::array<TextureSlot, 5> kTextureSlots = {
+    {{"leaf_alpha", TextureKind::kNumbers, &MaterialTextures::leaf_alpha},
+     {"leaf_reflectance", TextureKind::kColour, &MaterialTextures::leaf_reflectance},
+     {"leaf_thickness", TextureKind::kNumbers, &MaterialTextures::leaf_thickness},
+     {"leaf_normal", TextureKind::kNumbers, &MaterialTextures::leaf_normal},
+     {"bark", TextureKind::kColour, &MaterialTextures::bark}}};
 
 // What the ground is covered with: its colour; its albedo in the band is the scene's.
 enum class GroundCover { kLitter, kGrass };

@@ -13,11 +13,7 @@ std::filesystem::path read_path(const ConfigTable& table, const char* key) {
 MaterialTextures read_textures(const ConfigTable& table) {
   MaterialTextures t;
   t.material = table.text_or("material", "*");
-  t.leaf_alpha = read_path(table, "leaf_alpha");
-  t.leaf_reflectance = read_path(table, "leaf_reflectance");
-  t.leaf_thickness = read_path(table, "leaf_thickness");
-  t.leaf_normal = read_path(table, "leaf_normal");
-  t.bark = read_path(table, "bark");
+  for (const TextureSlot& slot : kTextureSlots) t.*slot.file = read_path(table, slot.name);
   t.where = table.where("material");
   const std::size_t last = t.where.rfind(".material");
   if (last != std::string::npos) t.where.erase(last);
@@ -38,6 +34,10 @@ LeafOutline read_outline(const ConfigTable& table) {
 std::string to_string(RenderMode mode) {
   return mode == RenderMode::kPathTraced ? "path_traced" : "light_map";
 }
+
+std::string to_string(LeafSun sun) { return sun == LeafSun::kStored ? "stored" : "traced"; }
+std::string to_string(GroundCover ground) { return ground == GroundCover::kGrass ? "grass" : "litter"; }
+std::string to_string(ToneCurve curve) { return curve == ToneCurve::kFilmic ? "filmic" : "linear"; }
 
 RenderMode render_mode_named(const std::string& word, const std::string& where) {
   for (const RenderMode mode : {RenderMode::kLightMap, RenderMode::kPathTraced})

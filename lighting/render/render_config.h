@@ -11,6 +11,10 @@ std::string to_string(RenderMode mode);  // "light_map", "path_traced"
 // Throws Error(kInvalidInput) at `where` for another word.
 RenderMode render_mode_named(const std::string& word, const std::string& where);
 
+std::string to_string(LeafSun sun);         // "stored", "traced"
+std::string to_string(GroundCover ground);  // "litter", "grass"
+std::string to_string(ToneCurve curve);     // "linear", "filmic"
+
 struct RenderSettings {
   RenderMode mode = RenderMode::kLightMap;
   PictureLook look;

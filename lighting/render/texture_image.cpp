@@ -20,15 +20,26 @@ int on_edge(int i, int size, TextureEdge edge) {
   return rest < 0 ? rest + size : rest;
 }
 
-bool is_alpha(const TextureImage& image, int channel) {
-  return (image.channels == 2 || image.channels == 4) && channel == image.channels - 1;
+bool is_alpha(int channels, int channel) {
+  return (channels == 2 || channels == 4) && channel == channels - 1;
 }
 
-void make_linear(TextureImage& image) {
-  for (std::size_t i = 0; i < image.values.size(); ++i)
-    if (!is_alpha(image, static_cast<int>(i % static_cast<std::size_t>(image.channels))))
-      image.values[i] = static_cast<float>(linear_from_srgb(image.values[i]));
+void make_linear(std::vector<float>& values, int channels) {
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!is_alpha(channels, static_cast<int>(i % static_cast<std::size_t>(channels))))
+      values[i] = static_cast<float>(linear_from_srgb(values[i]));
 }
+
+bool is_size(int width_px, int height_px) {
+  return width_px >= 1 && height_px >= 1 && width_px <= kMostPx && height_px <= kMostPx;
+}
+
+std::size_t value_count(const TexturePixels& pixels) {
+  return static_cast<std::size_t>(pixels.width_px) * static_cast<std::size_t>(pixels.height_px) *
+         static_cast<std::size_t>(pixels.channels);
+}
+
+bool is_brightness(float value) { return std::isfinite(value) && value >= 0.0f; }
 
 [[noreturn]] void refuse(const std::string& where, const std::filesystem::path& path,
                          const std::string& problem) {
@@ -61,27 +72,47 @@ double TextureImage::alpha(const Vec2& place, TextureEdge edge) const {
   return at(place, channels == 2 || channels == 4 ? channels - 1 : 0, edge);
 }
 
-TextureImage load_texture(const std::filesystem::path& path, TextureKind kind, const std::string& where) {
+TexturePixels read_texture(const std::filesystem::path& path, TextureKind kind, const std::string& where) {
   if (!std::filesystem::is_regular_file(path))
     throw Error(ErrorKind::kNotFound, where, "there is no file '" + path.string() + "'",
                 "the path of an image");
   const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string());
   if (!input) refuse(where, path, "cannot be read as an image: " + OIIO::geterror());
   const OIIO::ImageSpec spec = input->spec();
-  if (spec.width < 1 || spec.height < 1 || spec.width > kMostPx || spec.height > kMostPx ||
-      spec.nchannels < 1)
+  if (!is_size(spec.width, spec.height) || spec.nchannels < 1)
     refuse(where, path,
            "has " + std::to_string(spec.width) + " x " + std::to_string(spec.height) + " pixels");
-  TextureImage image{spec.width, spec.height, std::min(spec.nchannels, 4), {}};
-  image.values.resize(static_cast<std::size_t>(image.width_px) * static_cast<std::size_t>(image.height_px) *
-                      static_cast<std::size_t>(image.channels));
-  if (!input->read_image(0, 0, 0, image.channels, OIIO::TypeDesc::FLOAT, image.values.data()))
+  TexturePixels pixels{spec.width, spec.height, std::min(spec.nchannels, 4), {}, {}};
+  const bool eight_bits = spec.format == OIIO::TypeDesc::UINT8;
+  eight_bits ? pixels.bytes.resize(value_count(pixels)) : pixels.values.resize(value_count(pixels));
+  void* const to = eight_bits ? static_cast<void*>(pixels.bytes.data()) : pixels.values.data();
+  const OIIO::TypeDesc type = eight_bits ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::FLOAT;
+  if (!input->read_image(0, 0, 0, pixels.channels, type, to))
     refuse(where, path, "breaks off: " + input->geterror());
-  if (!std::all_of(image.values.begin(), image.values.end(),
-                   [](float v) { return std::isfinite(v) && v >= 0.0f; }))
+  if (!std::all_of(pixels.values.begin(), pixels.values.end(), is_brightness))
     refuse(where, path, "has pixels that are negative or not finite");
-  if (kind == TextureKind::kColour && !spec.format.is_floating_point()) make_linear(image);
+  if (kind == TextureKind::kColour && !spec.format.is_floating_point())
+    make_linear(pixels.values, pixels.channels);
+  return pixels;
+}
+
+TextureImage decoded(const TexturePixels& pixels, TextureKind kind, const std::string& where) {
+  const auto refuse_pixels = [&](const std::string& problem) { throw_invalid(where, problem, "an image"); };
+  if (!is_size(pixels.width_px, pixels.height_px) || pixels.channels < 1 || pixels.channels > 4)
+    refuse_pixels("has " + std::to_string(pixels.width_px) + " x " + std::to_string(pixels.height_px) +
+                  " pixels of " + std::to_string(pixels.channels) + " channels");
+  if (pixels.bytes.size() + pixels.values.size() != value_count(pixels))
+    refuse_pixels("has another number of values than width x height x channels");
+  if (!std::all_of(pixels.values.begin(), pixels.values.end(), is_brightness))
+    refuse_pixels("has pixels that are negative or not finite");
+  TextureImage image{pixels.width_px, pixels.height_px, pixels.channels, pixels.values};
+  for (const std::uint8_t byte : pixels.bytes) image.values.push_back(static_cast<float>(byte) / 255.0f);
+  if (kind == TextureKind::kColour && !pixels.bytes.empty()) make_linear(image.values, image.channels);
   return image;
+}
+
+TextureImage load_texture(const std::filesystem::path& path, TextureKind kind, const std::string& where) {
+  return decoded(read_texture(path, kind, where), kind, where);
 }
 
 }  // namespace sunfleck

@@ -1,6 +1,7 @@
 // Images read from files, as numbers to look up. Bilinear between pixel centres.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -25,8 +26,21 @@ struct TextureImage {
 
 enum class TextureKind { kColour, kNumbers };  // colour of 8 and 16 bits is made linear (sRGB)
 
+// An image's pixels as they were stored, for whom the file is out of reach: 8-bit images as their bytes
+// (colours in sRGB), all others as the numbers of a TextureImage (linear).
+struct TexturePixels {
+  int width_px = 0, height_px = 0, channels = 0;  // 1 to 4 channels
+  std::vector<std::uint8_t> bytes;                // either these, top row first, channels interleaved
+  std::vector<float> values;                      // or these
+};
+
 // Throws Error(kNotFound / kInvalidInput) at `where` with the file's name: not there, not an image, no
 // pixels, more than 16384 on a side.
+TexturePixels read_texture(const std::filesystem::path& path, TextureKind kind, const std::string& where);
+// Throws Error(kInvalidInput) at `where`: no pixels, more than 16384 on a side, another number of values than
+// width x height x channels, negative or not finite ones.
+TextureImage decoded(const TexturePixels& pixels, TextureKind kind, const std::string& where);
+// The two in a row.
 TextureImage load_texture(const std::filesystem::path& path, TextureKind kind, const std::string& where);
 
 }  // namespace sunfleck

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "lighting/map/light_map_file.h"
+#include "lighting/plan/growth_light.h"
 #include "lighting/render/camera_config.h"
 #include "server/apps/outputs.h"
 #include "server/apps/stand_summary.h"
@@ -21,8 +22,8 @@ Forest same_forest(const ClientOptions& o, const SceneFile& scene, const RunCont
                    std::vector<std::string>* notes = nullptr) {
   if (!scene.forest)
     throw_invalid(o.scene.string(), "has no [forest] table", "the file the scene was made from");
-  Forest forest =
-      grow_forest(*scene.forest, SpeciesLibrary::load(find_configs(o.configs) / "species"), control, notes);
+  Forest forest = grow_lit_forest(*scene.forest, SpeciesLibrary::load(find_configs(o.configs) / "species"),
+                                  control, notes);
   if ("scenes/" + content_hash(forest) != o.scene_name)
     throw_invalid("--scene", o.scene_name + " was not made from " + o.scene.string(),
                   "the file it was made from grows scenes/" + content_hash(forest));
@@ -123,13 +124,21 @@ void fetch_picture(const ClientOptions& o, Client& client, const RunControl& con
                                      : Client::Files::kExrAndPng;
   LightRequest light = light_request_of(o.scene, scene, o.method, {});
   light.selection = {};  // a picture shows all trees
-  const RemoteRender picture = client.render(required_scene_name(o), light, camera, files, control);
+  RenderSettings settings = scene.render.value_or(RenderSettings{});
+  if (!o.mode.empty()) settings.mode = render_mode_named(o.mode, "--mode");
+  settings.effort.keep_when_stopped = settings.mode == RenderMode::kPathTraced || o.stop_after_s > 0;
+  const RemoteRender picture =
+      client.render(required_scene_name(o), light, camera, settings, files, control, {}, o.stop_after_s);
   if (!o.png.empty()) write_whole_file(o.png, picture.png);
   if (!o.exr.empty()) write_whole_file(o.exr, picture.exr);
   finish_progress();
-  std::printf("image        %d x %d pixels in %zu tiles, rendered in %s\n", picture.width_px,
-              picture.height_px, picture.tiles, seconds_text(picture.render_wall_s).c_str());
+  std::printf("image        %d x %d pixels in %zu tiles, %d samples each, rendered in %s%s\n",
+              picture.width_px, picture.height_px, picture.tiles, picture.samples_per_pixel,
+              seconds_text(picture.render_wall_s).c_str(), picture.stopped ? ", stopped early" : "");
+  std::printf("noise        %.2f %% of the picture's mean brightness (RMS of its pixels)\n",
+              100 * picture.noise);
   print_written({o.png, o.exr});
+  if (picture.stopped && control.stop.stop_requested()) throw_cancelled();
 }
 
 }  // namespace sunfleck

@@ -112,6 +112,8 @@ struct ClientOptions {
   StandFiles stand;                  // but netcdf and csv, which are `output` and `csv` here
   std::string method;                // empty: as the scene file says
   std::vector<std::uint32_t> trees;  // the same
+  std::string mode;                  // render; the same
+  double stop_after_s = 0;           // render; 0: never
 };
 void run_client(const ClientOptions& options, const RunControl& control);
 

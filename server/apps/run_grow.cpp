@@ -1,5 +1,6 @@
 #include <cstdio>
 
+#include "lighting/plan/growth_light.h"
 #include "server/apps/commands.h"
 #include "server/apps/outputs.h"
 #include "server/apps/scene_file.h"
@@ -36,7 +37,7 @@ Forest grow_scene(const GrowOptions& o, std::vector<std::string>& notes, const R
   if (!scene.forest) throw_invalid(o.scene.string(), "has no [forest] table", "say what to grow");
   ForestSpec spec = *scene.forest;
   if (o.seed) spec.seed = *o.seed;
-  return grow_forest(spec, SpeciesLibrary::load(find_configs(o.configs) / "species"), control, &notes);
+  return grow_lit_forest(spec, SpeciesLibrary::load(find_configs(o.configs) / "species"), control, &notes);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // stand: from a scene file to a season's light as tables, pictures and a page.
 #include <cstdio>
 
+#include "lighting/plan/growth_light.h"
 #include "server/apps/commands.h"
 #include "server/apps/stand_summary.h"
 #include "server/apps/terminal.h"
@@ -15,8 +16,8 @@ Forest forest_of(const StandOptions& o, const SceneFile& scene, const RunControl
   if (!o.forest.empty()) return load_forest(o.forest);
   if (!scene.forest)
     throw_invalid(o.scene.string(), "has no [forest] table", "say what to grow, or give --forest FILE.vdb");
-  return grow_forest(*scene.forest, SpeciesLibrary::load(find_configs(o.configs) / "species"), control,
-                     &notes);
+  return grow_lit_forest(*scene.forest, SpeciesLibrary::load(find_configs(o.configs) / "species"), control,
+                         &notes);
 }
 
 }  // namespace

@@ -37,6 +37,11 @@ void add_service(CLI::App& app, ServeOptions& serve, ClientOptions& client) {
   c->add_option("--trees", client.trees,
                 "light: numbers of the trees to answer for, instead of the scene file's")
       ->delimiter(',');
+  c->add_option("--mode", client.mode, "render: light_map or path_traced, instead of the scene file's")
+      ->check(CLI::IsMember({"light_map", "path_traced"}));
+  c->add_option("--stop-after", client.stop_after_s,
+                "render: take the picture as it is after so many seconds of rendering")
+      ->check(CLI::Range(0.0, 1e6));
   add_client_files(c, client);
   c->add_option("--configs", client.configs, "Folder with species/ and grammars/");
   c->footer(
@@ -45,6 +50,8 @@ void add_service(CLI::App& app, ServeOptions& serve, ClientOptions& client) {
       "configs/scenes/mixed_stand.toml\n"
       "  sunfleck client light --address unix:/tmp/sunfleck.sock --scene scenes/1f3a... --scene-file "
       "configs/scenes/mixed_stand.toml --tree-csv trees.csv\n"
+      "  sunfleck client render --address unix:/tmp/sunfleck.sock --scene scenes/1f3a... --scene-file "
+      "configs/scenes/forest_day.toml --mode path_traced --png day.png\n"
       "  sunfleck client stand --address unix:/tmp/sunfleck.sock --scene scenes/1f3a... --scene-file "
       "configs/examples/stand.toml --netcdf stand.nc --csv tables --report stand.html");
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lighting/plan/light_request.h"
-#include "lighting/render/render.h"
+#include "lighting/render/render_config.h"
 #include "lighting/study/stand_cost.h"
 #include "lighting/study/stand_study.h"
 #include "sim/base/run_control.h"
@@ -38,6 +38,9 @@ struct RemoteRender {
   int width_px = 0, height_px = 0;
   std::string exr, png;  // bytes of the files asked for
   double mean_rgb = 0, mean_rgb_standard_error = 0;
+  double noise = 0;           // image_noise() of the picture
+  int samples_per_pixel = 0;  // taken
+  bool stopped = false;       // before it was done
   double render_wall_s = 0;
   std::size_t tiles = 0;
 };
@@ -72,8 +75,12 @@ class Client {
                          const RunControl& control = {});
   StandCost stand_light_cost(const std::string& scene, const StandStudySpec& spec);
   enum class Files { kNone, kExr, kPng, kExrAndPng };
-  RemoteRender render(const std::string& scene, const LightRequest& light, const Camera& camera, Files files,
-                      const RunControl& control = {}, const RemoteTileSink& tiles = {});
+  // As render() or render_path_traced() with the settings of [render]; images they name are read here and
+  // sent. With effort.keep_when_stopped a stop of `control`, or the end of `stop_after_s` (above 0), returns
+  // the picture of the samples taken so far, where every pixel has some.
+  RemoteRender render(const std::string& scene, const LightRequest& light, const Camera& camera,
+                      const RenderSettings& settings, Files files, const RunControl& control = {},
+                      const RemoteTileSink& tiles = {}, double stop_after_s = 0);
 
  private:
   struct State;

@@ -7,12 +7,24 @@
 namespace sunfleck {
 namespace {
 
+v1::TreeForm form_message(TreeForm form) {
+  return form == TreeForm::kOpenGrown ? v1::TREE_FORM_OPEN : v1::TREE_FORM_STAND;
+}
+
+void fill_growth(const GrowInLight& growth, v1::GrowInLight& message) {
+  message.set_years(growth.years);
+  message.set_stop_height_m(growth.stop_height_m);
+  message.set_light(growth.light == GrowthLight::kGrid ? v1::GROWTH_LIGHT_GRID : v1::GROWTH_LIGHT_OPENNESS);
+  message.set_cell_m(growth.cell_m);
+}
+
 void fill_tree(const InventoryTree& tree, v1::InventoryTree& message) {
   message.set_id_tree(tree.id.value);
   message.set_species(tree.species);
   message.set_x_m(tree.x_m);
   message.set_y_m(tree.y_m);
   message.set_dbh_cm(tree.dbh_cm);
+  message.set_form(form_message(tree.form));
   if (tree.height_m) message.set_height_m(*tree.height_m);
   if (tree.crown_base_m) message.set_crown_base_m(*tree.crown_base_m);
   if (tree.widest_m) message.set_widest_m(*tree.widest_m);
@@ -29,6 +41,7 @@ void fill_rule(const PlantingRule& rule, v1::PlantingRule& message) {
   message.set_spacing_m(rule.spacing_m);
   message.set_dbh_mean_cm(rule.dbh_mean_cm);
   message.set_dbh_sd_cm(rule.dbh_sd_cm);
+  message.set_form(form_message(rule.form));
   switch (rule.pattern) {
     case PlantingPattern::kPoissonDisc:
       return message.set_pattern(v1::PLANTING_PATTERN_POISSON_DISC);
@@ -53,6 +66,7 @@ void fill_message(const ForestSpec& spec, v1::ForestSpec& message) {
   message.set_detail(spec.detail);
   message.set_size_classes(spec.size_classes);
   message.set_variants(spec.variants);
+  if (spec.grow_in_light) fill_growth(*spec.grow_in_light, *message.mutable_grow_in_light());
   fill_crowns(spec, message);
   fill_surroundings(spec, message);
   message.mutable_terrain()->set_elevation_m(spec.terrain.elevation_m);

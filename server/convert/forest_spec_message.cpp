@@ -44,6 +44,20 @@ class SpeciesCheck {
   std::map<std::string, std::string> problems_;
 };
 
+TreeForm form_from_message(v1::TreeForm form, const std::string& field, Violations& violations) {
+  switch (form) {
+    case v1::TREE_FORM_UNSPECIFIED:
+    case v1::TREE_FORM_STAND:
+      return TreeForm::kStandGrown;
+    case v1::TREE_FORM_OPEN:
+      return TreeForm::kOpenGrown;
+    default:
+      break;
+  }
+  violations.add(field, "unknown form " + std::to_string(form));
+  return TreeForm::kStandGrown;
+}
+
 InventoryTree tree_from_message(const v1::InventoryTree& message, const std::string& field,
                                 Violations& violations) {
   InventoryTree tree;
@@ -52,6 +66,7 @@ InventoryTree tree_from_message(const v1::InventoryTree& message, const std::str
   tree.x_m = message.x_m();
   tree.y_m = message.y_m();
   tree.dbh_cm = message.dbh_cm();
+  tree.form = form_from_message(message.form(), field + ".form", violations);
   violations.number(field + ".x_m", tree.x_m, -kFarthest_m, kFarthest_m);
   violations.number(field + ".y_m", tree.y_m, -kFarthest_m, kFarthest_m);
   violations.above(field + ".dbh_cm", tree.dbh_cm, 0, kThickest_cm);
@@ -97,6 +112,7 @@ PlantingRule rule_from_message(const v1::PlantingRule& message, const std::strin
   PlantingRule rule;
   rule.species = message.species();
   rule.pattern = pattern_from_message(message.pattern(), field + ".pattern", violations);
+  rule.form = form_from_message(message.form(), field + ".form", violations);
   if (message.has_count()) rule.count = message.count();
   if (message.has_spacing_m()) rule.spacing_m = message.spacing_m();
   if (message.has_dbh_mean_cm()) rule.dbh_mean_cm = message.dbh_mean_cm();
@@ -178,6 +194,23 @@ void read_plot(const v1::ForestSpec& message, const std::string& field, Violatio
   violations.number(field + ".period.size_y_m", period.size_y_m(), 0.01, kFarthest_m);
 }
 
+void read_growth(const v1::ForestSpec& message, const std::string& field, Violations& violations,
+                 ForestSpec& spec) {
+  if (!message.has_grow_in_light()) return;
+  const v1::GrowInLight& growth = message.grow_in_light();
+  GrowInLight& asked = spec.grow_in_light.emplace();
+  if (growth.has_years()) asked.years = growth.years();
+  asked.stop_height_m = growth.stop_height_m();
+  if (growth.has_cell_m()) asked.cell_m = growth.cell_m();
+  violations.integer(field + ".years", asked.years, 1, 200);
+  violations.number(field + ".stop_height_m", asked.stop_height_m, 0, 100);
+  violations.number(field + ".cell_m", asked.cell_m, 0.1, 5);
+  if (growth.light() == v1::GROWTH_LIGHT_GRID)
+    asked.light = GrowthLight::kGrid;
+  else if (growth.light() != v1::GROWTH_LIGHT_UNSPECIFIED && growth.light() != v1::GROWTH_LIGHT_OPENNESS)
+    violations.add(field + ".light", "unknown light " + std::to_string(growth.light()));
+}
+
 // How trees become geometry.
 void read_detail(const v1::ForestSpec& message, const std::string& field, std::uint64_t trees,
                  const Limits& limits, Violations& violations, ForestSpec& spec) {
@@ -191,6 +224,7 @@ void read_detail(const v1::ForestSpec& message, const std::string& field, std::u
   violations.above(field + ".detail", spec.detail, 0, 1);
   violations.integer(field + ".size_classes", spec.size_classes, 1, 64);
   violations.integer(field + ".variants", spec.variants, 1, 64);
+  read_growth(message, field + ".grow_in_light", violations, spec);
   read_crowns(message, field, violations, spec);
   if (spec.trees != TreeSource::kCrown || !in_range) return;
   const double elements = predicted_crown_elements(spec, trees);

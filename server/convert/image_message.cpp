@@ -77,12 +77,16 @@ void fill_tile(const Image& image, int x0, int y0, int x1, int y1, v1::RenderTil
 void fill_summary(const Image& image, v1::RenderSummary& message) {
   message.set_mean_rgb(mean_of(image.rgb));
   message.set_mean_rgb_standard_error(mean_of(image.rgb_standard_error));
+  message.set_samples_per_pixel(image.samples_per_pixel);
+  message.set_noise(image_noise(image));
+  message.set_stopped(image.stopped);
 }
 
-ImageFile encode(const Image& image, ImageFormat format, const std::filesystem::path& scratch) {
+ImageFile encode(const Image& image, ImageFormat format, const ToneMap& tone,
+                 const std::filesystem::path& scratch) {
   const std::string name = format == ImageFormat::kExr ? "image.exr" : "image.png";
   const PassingFile file{unused_path(scratch, name)};
-  format == ImageFormat::kExr ? save_exr(image, file.path) : save_png(image, file.path);
+  format == ImageFormat::kExr ? save_exr(image, file.path) : save_png(image, file.path, tone);
   std::ifstream in(file.path, std::ios::binary);
   std::ostringstream bytes;
   if (!(bytes << in.rdbuf())) throw Error(ErrorKind::kInputOutput, file.path.string(), "cannot be read back");

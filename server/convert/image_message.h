@@ -25,11 +25,12 @@ std::vector<ImageFormat> formats_from_message(const v1::StreamRenderRequest& mes
 void fill_tile(const Image& image, int x0, int y0, int x1, int y1, v1::RenderTile& message);
 void fill_summary(const Image& image, v1::RenderSummary& message);
 
-// "image.exr" or "image.png", and its bytes: written into `scratch`, read back, removed.
+// "image.exr" or "image.png" (by `tone`), and its bytes: written into `scratch`, read back, removed.
 struct ImageFile {
   std::string name, bytes;
 };
-ImageFile encode(const Image& image, ImageFormat format, const std::filesystem::path& scratch);
+ImageFile encode(const Image& image, ImageFormat format, const ToneMap& tone,
+                 const std::filesystem::path& scratch);
 ArrayView view_of(const ImageFile& file);
 
 }  // namespace sunfleck

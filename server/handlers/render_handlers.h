@@ -16,6 +16,9 @@ class RenderHandlers final : public v1::RenderService::CallbackService {
 
   grpc::ServerWriteReactor<v1::StreamRenderResponse>* StreamRender(
       grpc::CallbackServerContext* context, const v1::StreamRenderRequest* request) override;
+  grpc::ServerUnaryReactor* StopRender(grpc::CallbackServerContext* context,
+                                       const v1::StopRenderRequest* request,
+                                       v1::StopRenderResponse* response) override;
 
  private:
   ServerState& state_;

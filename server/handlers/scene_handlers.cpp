@@ -1,6 +1,7 @@
 // Head comment in scene_handlers.h.
 #include "server/handlers/scene_handlers.h"
 
+#include "lighting/plan/growth_light.h"
 #include "server/convert/forest_spec_message.h"
 #include "server/handlers/unary_call.h"
 #include "sim/base/error.h"
@@ -58,7 +59,8 @@ grpc::ServerUnaryReactor* SceneHandlers::CreateScene(grpc::CallbackServerContext
     const ForestSpec spec =
         forest_spec_from_message(request->spec(), "spec", state_.species, state_.limits, violations);
     violations.refuse_if_any();
-    const ScenePtr scene = make_scene(grow_forest(spec, state_.species, control), spec.seed, state_.prepared);
+    const ScenePtr scene =
+        make_scene(grow_lit_forest(spec, state_.species, control), spec.seed, state_.prepared);
     check_size(*scene, state_.limits);
     fill_scene(*state_.scenes.add(scene), *response);
   });

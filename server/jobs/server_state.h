@@ -12,6 +12,7 @@
 #include "server/jobs/compute_pool.h"
 #include "server/jobs/deadline_watch.h"
 #include "server/jobs/light_map_cache.h"
+#include "server/jobs/running_renders.h"
 #include "server/jobs/scene_store.h"
 #include "sim/plant/species.h"
 
@@ -35,6 +36,7 @@ struct ServerState {
   const std::shared_ptr<PreparedCache> prepared;  // of all scenes
   SceneStore scenes;
   LightMapCache light_maps;
+  RunningRenders renders;
   DeadlineWatch watch;
   ComputePool pool;  // last: its threads end before what they use
 };

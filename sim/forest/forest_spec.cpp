@@ -20,7 +20,21 @@ PlantingPattern pattern_of(const ConfigTable& table) {
   return PlantingPattern::kPoissonDisc;
 }
 
-PlantingRule planting_rule(const ConfigTable& table) {
+TreeForm form_or(const ConfigTable& table, TreeForm usual) {
+  const std::string word = table.choice_or("form", to_string(usual), {"stand", "open"});
+  return word == to_string(TreeForm::kOpenGrown) ? TreeForm::kOpenGrown : TreeForm::kStandGrown;
+}
+
+GrowInLight grow_in_light_of(const ConfigTable& table) {
+  GrowInLight growth;
+  growth.years = static_cast<int>(table.integer_or("years", growth.years, {1, 200}));
+  growth.stop_height_m = table.number_or("stop_height_m", growth.stop_height_m, {0, 100});
+  growth.cell_m = table.number_or("cell_m", growth.cell_m, {0.1, 5});
+  if (table.choice_or("light", "openness", {"openness", "grid"}) == "grid") growth.light = GrowthLight::kGrid;
+  return growth;
+}
+
+PlantingRule planting_rule(const ConfigTable& table, TreeForm usual_form) {
   PlantingRule rule;
   rule.species = table.text("species");
   rule.count = static_cast<int>(table.integer("count", {1, 1e7}));
@@ -28,6 +42,7 @@ PlantingRule planting_rule(const ConfigTable& table) {
   rule.spacing_m = table.number_or("spacing_m", rule.spacing_m, {0.01, 1e5});
   rule.dbh_mean_cm = table.number_or("dbh_mean_cm", rule.dbh_mean_cm, {1, 1000});
   rule.dbh_sd_cm = table.number_or("dbh_sd_cm", rule.dbh_sd_cm, {0, 1000});
+  rule.form = form_or(table, usual_form);
   return rule;
 }
 
@@ -54,11 +69,12 @@ void read_trees(const ConfigTable& table, ForestSpec& spec) {
                   has_inventory ? "there are an inventory and planting rules" : "there are no trees",
                   "give either inventory = \"file.csv\" or [[forest.planting]] tables");
   }
+  const TreeForm form = form_or(table, TreeForm::kStandGrown);
   if (has_inventory) {
-    spec.inventory = read_inventory(table.directory() / table.text("inventory"));
+    spec.inventory = read_inventory(table.directory() / table.text("inventory"), form);
     return;
   }
-  for (const ConfigTable& rule : table.tables("planting")) spec.planting.push_back(planting_rule(rule));
+  for (const ConfigTable& rule : table.tables("planting")) spec.planting.push_back(planting_rule(rule, form));
   spec.plot_width_m = table.number("plot_width_m", {0.1, 1e5});
   spec.plot_depth_m = table.number("plot_depth_m", {0.1, 1e5});
 }
@@ -123,9 +139,12 @@ void read_geometry(const ConfigTable& table, ForestSpec& spec) {
   spec.detail = table.number_or("detail", spec.detail, {1e-4, 1});
   spec.size_classes = static_cast<int>(table.integer_or("size_classes", spec.size_classes, {1, 1000}));
   spec.variants = static_cast<int>(table.integer_or("variants", spec.variants, {1, 1000}));
+  if (const auto growth = table.table_if("grow_in_light")) spec.grow_in_light = grow_in_light_of(*growth);
 }
 
 }  // namespace
+
+std::string to_string(GrowthLight light) { return light == GrowthLight::kGrid ? "grid" : "openness"; }
 
 ForestSpec read_forest_spec(const ConfigTable& table) {
   ForestSpec spec;

@@ -60,7 +60,9 @@ void place_copies(const std::vector<StandTree>& copies, Forest& forest) {
   std::map<TreeId, Instance> originals;
   for (const Instance& instance : forest.instances) originals.emplace(instance.tree, instance);
   for (const StandTree& copy : copies) {
-    Instance instance = originals.at(*copy.tree.copy_of);
+    const auto original = originals.find(*copy.tree.copy_of);
+    if (original == originals.end()) continue;  // it died for want of light
+    Instance instance = original->second;
     instance.position_m = stem_foot_m(forest.terrain, copy.tree);
     instance.yaw_rad += static_cast<float>(copy.tree.copy_yaw_rad);
     instance.tree = copy.tree.id;
@@ -85,6 +87,9 @@ std::vector<StandTree> stand_of(std::vector<InventoryTree> trees, const SpeciesL
       throw_invalid(tree_label(tree), "another tree has this number", "give each tree its own number");
     }
     const Species& species = library.find(tree.species, tree_label(tree));
+    if (tree.form == TreeForm::kOpenGrown && !species.open_grown)
+      throw_invalid(tree_label(tree), "nothing is known of open-grown trees of " + species.latin,
+                    "form = \"stand\", or an [open_grown] table in the species' file");
     stand.push_back({std::move(tree), &species});
   }
   if (stand.empty()) throw_invalid("forest", "no tree fits", "a larger plot or a smaller spacing");
@@ -117,7 +122,7 @@ Vec3 stem_foot_m(const Terrain& terrain, const InventoryTree& tree) {
 }
 
 Forest grow_forest(const ForestSpec& spec, const SpeciesLibrary& species, const RunControl& control,
-                   std::vector<std::string>* notes) {
+                   std::vector<std::string>* notes, const GrowthLightMaker& grid_light) {
   std::vector<std::string> said;
   Forest forest;
   forest.name = spec.name;
@@ -130,10 +135,15 @@ Forest grow_forest(const ForestSpec& spec, const SpeciesLibrary& species, const 
   forest.materials = materials_of(stand);
   switch (spec.trees) {
     case TreeSource::kCrown:
+      if (spec.grow_in_light)
+        throw_invalid("forest.grow_in_light", "is for trees of grammars", "trees = \"lsystem\"");
       grow_crowns(spec, stand, control, forest, said);
       break;
     case TreeSource::kLsystem:
-      grow_lsystems(spec, stand, control, forest, said);
+      if (spec.grow_in_light)
+        grow_stand_in_light(spec, stand, grid_light, control, forest, said);
+      else
+        grow_lsystems(spec, stand, control, forest, said);
       break;
   }
   place_copies(copies, forest);

@@ -28,14 +28,15 @@ constexpr double kMostOwnElements = 2e8;  // of prototypes for single trees: 8.8
 struct Kind {
   std::string latin;
   int size_class = 0, variant = 0;
+  TreeForm form = TreeForm::kStandGrown;
   auto operator<=>(const Kind&) const = default;
 };
 
 struct Plan {
-  std::vector<std::size_t> measured;                          // trees with prototypes of their own
-  std::vector<Kind> kind_of_tree;                             // of the others
-  std::map<std::pair<std::string, int>, double> mean_dbh_cm;  // of (species, size class)
-  std::map<Kind, const Species*> kinds;                       // that are used
+  std::vector<std::size_t> measured;     // trees with prototypes of their own
+  std::vector<Kind> kind_of_tree;        // of the others
+  std::map<Kind, double> mean_dbh_cm;    // of a size class (its variant 0)
+  std::map<Kind, const Species*> kinds;  // that are used
 };
 
 std::uint64_t hash_of(const std::string& text) {
@@ -48,12 +49,13 @@ std::uint64_t seed_of_tree(const ForestSpec& spec, const InventoryTree& tree) {
   return mix_seed(mix_seed(spec.seed, hash_of("tree")), tree.id.value);
 }
 
-// Trees (indexes) of each species known by diameter only, thin ones first.
-std::map<std::string, std::vector<std::size_t>> trees_by_species(const std::vector<StandTree>& stand) {
-  std::map<std::string, std::vector<std::size_t>> groups;
+// Trees (indexes) of each species and form known by diameter only, thin ones first.
+using Groups = std::map<std::pair<std::string, TreeForm>, std::vector<std::size_t>>;
+Groups trees_by_species(const std::vector<StandTree>& stand) {
+  Groups groups;
   for (std::size_t i = 0; i < stand.size(); ++i)
-    if (!is_measured(stand[i].tree)) groups[stand[i].species->latin].push_back(i);
-  for (auto& [latin, trees] : groups) {
+    if (!is_measured(stand[i].tree)) groups[{stand[i].species->latin, stand[i].tree.form}].push_back(i);
+  for (auto& [of, trees] : groups) {
     std::sort(trees.begin(), trees.end(), [&](std::size_t a, std::size_t b) {
       const InventoryTree &first = stand[a].tree, &second = stand[b].tree;
       return std::tie(first.dbh_cm, first.id) < std::tie(second.dbh_cm, second.id);
@@ -64,15 +66,16 @@ std::map<std::string, std::vector<std::size_t>> trees_by_species(const std::vect
 
 void plan_class(const ForestSpec& spec, const std::vector<StandTree>& stand, std::vector<std::size_t> members,
                 const Species& species, int size_class, Plan& plan) {
+  const TreeForm form = stand[members.front()].tree.form;
   double sum_cm = 0;
   for (const std::size_t i : members) {
     const std::uint64_t hash = seed_of_tree(spec, stand[i].tree);
     const int variant = static_cast<int>(hash % static_cast<std::uint64_t>(spec.variants));
-    plan.kind_of_tree[i] = {species.latin, size_class, variant};
+    plan.kind_of_tree[i] = {species.latin, size_class, variant, form};
     plan.kinds[plan.kind_of_tree[i]] = &species;
     sum_cm += stand[i].tree.dbh_cm;
   }
-  plan.mean_dbh_cm[{species.latin, size_class}] = sum_cm / static_cast<double>(members.size());
+  plan.mean_dbh_cm[{species.latin, size_class, 0, form}] = sum_cm / static_cast<double>(members.size());
 }
 
 Plan plan_prototypes(const ForestSpec& spec, const std::vector<StandTree>& stand, int size_classes) {
@@ -80,7 +83,7 @@ Plan plan_prototypes(const ForestSpec& spec, const std::vector<StandTree>& stand
   plan.kind_of_tree.resize(stand.size());
   for (std::size_t i = 0; i < stand.size(); ++i)
     if (is_measured(stand[i].tree)) plan.measured.push_back(i);
-  for (const auto& [latin, trees] : trees_by_species(stand)) {
+  for (const auto& [of, trees] : trees_by_species(stand)) {
     const std::size_t classes = std::min(static_cast<std::size_t>(size_classes), trees.size());
     const auto cut = [&, n = trees.size()](std::size_t c) {
       return trees.begin() + static_cast<std::ptrdiff_t>(c * n / classes);
@@ -92,19 +95,36 @@ Plan plan_prototypes(const ForestSpec& spec, const std::vector<StandTree>& stand
   return plan;
 }
 
+// With the leaf area that was asked for.
+TreeSize with_leaf_area(const ForestSpec& spec, const Species& species, TreeSize size) {
+  if (spec.leaf_area == LeafAreaSource::kAllometry)
+    size.leaf_area_m2 = species.leaf_area_m2(100 * size.dbh_m, size.height_m);
+  size.leaf_area_m2 *= spec.leaf_area_factor;
+  return size;
+}
+
+double mean_dbh_cm(const Plan& plan, Kind kind) {
+  kind.variant = 0;
+  return plan.mean_dbh_cm.at(kind);
+}
+
 Prototype grow_kind(const ForestSpec& spec, const Plan& plan, const Kind& kind, const RunControl& control) {
   const Species& species = *plan.kinds.at(kind);
-  const double dbh_cm = plan.mean_dbh_cm.at({kind.latin, kind.size_class});
+  const double dbh_cm = mean_dbh_cm(plan, kind);
+  const bool open = kind.form == TreeForm::kOpenGrown;
   const auto number = static_cast<std::uint64_t>(kind.size_class * spec.variants + kind.variant);
-  const std::uint64_t seed = mix_seed(mix_seed(spec.seed, hash_of(kind.latin)), number);
-  Prototype prototype = grow_prototype(species, expected_size(species, dbh_cm), seed, spec.detail, control);
-  prototype.name = kind.latin + " class " + std::to_string(kind.size_class + 1) + " variant " +
-                   std::to_string(kind.variant + 1);
+  const std::uint64_t species_seed = mix_seed(spec.seed, hash_of(kind.latin + (open ? " open" : "")));
+  const std::uint64_t seed = mix_seed(species_seed, number);
+  Prototype prototype =
+      grow_prototype(species, with_leaf_area(spec, species, expected_size(species, dbh_cm, kind.form)), seed,
+                     spec.detail, control);
+  prototype.name = kind.latin + (open ? " open-grown" : "") + " class " +
+                   std::to_string(kind.size_class + 1) + " variant " + std::to_string(kind.variant + 1);
   return prototype;
 }
 
 Prototype grow_measured(const ForestSpec& spec, const StandTree& entry, const RunControl& control) {
-  const TreeSize size = tree_size(entry.tree, *entry.species);
+  const TreeSize size = with_leaf_area(spec, *entry.species, tree_size(entry.tree, *entry.species));
   try {
     Prototype prototype =
         grow_prototype(*entry.species, size, seed_of_tree(spec, entry.tree), spec.detail, control);
@@ -123,8 +143,6 @@ void check_options(const ForestSpec& spec, const std::vector<StandTree>& stand) 
   if (!(spec.detail > 0 && spec.detail <= 1)) {
     throw_invalid("forest.detail", "is " + std::to_string(spec.detail), "above 0, at most 1");
   }
-  if (spec.leaf_area_factor != 1.0)
-    throw_invalid("forest.leaf_area_factor", "is for crowns filled with leaves", "trees = \"crown\"");
   for (const StandTree& entry : stand) {
     if (!entry.species->grammar.empty()) continue;
     throw_invalid(tree_label(entry.tree), entry.species->latin + " has no grammar",
@@ -136,7 +154,8 @@ void check_options(const ForestSpec& spec, const std::vector<StandTree>& stand) 
 void check_measured(const ForestSpec& spec, const std::vector<StandTree>& stand, const Plan& plan) {
   double elements = 0;
   for (const std::size_t i : plan.measured) {
-    const double leaf_area_m2 = tree_size(stand[i].tree, *stand[i].species).leaf_area_m2;
+    const double leaf_area_m2 =
+        with_leaf_area(spec, *stand[i].species, tree_size(stand[i].tree, *stand[i].species)).leaf_area_m2;
     elements += spec.detail * leaf_area_m2 / template_area_m2(stand[i].species->foliage);
   }
   if (elements <= kMostOwnElements) return;
@@ -206,7 +225,7 @@ bool classes_suffice(const ForestSpec& spec, const std::vector<StandTree>& stand
     if (is_measured(stand[i].tree)) continue;
     const Species& species = *stand[i].species;
     const Kind& kind = plan.kind_of_tree[i];
-    const double usual_m = species.height_m(plan.mean_dbh_cm.at({kind.latin, kind.size_class}));
+    const double usual_m = expected_size(species, mean_dbh_cm(plan, kind), kind.form).height_m;
     if (std::abs(tree_height_m(stand[i].tree, species) / usual_m - 1) > kMostScaling - 0.02) return false;
   }
   return true;

@@ -54,8 +54,12 @@ bool is_missing(const std::string& field) { return field.empty() || field == "NA
 class RowReader {
  public:
   RowReader(const CsvTable& table, const InventoryColumns& columns, std::vector<InventoryField> unread,
-            std::vector<InventoryProblem>& problems)
-      : table_(table), columns_(columns), unread_(std::move(unread)), problems_(problems) {}
+            TreeForm usual_form, std::vector<InventoryProblem>& problems)
+      : table_(table),
+        columns_(columns),
+        unread_(std::move(unread)),
+        usual_form_(usual_form),
+        problems_(problems) {}
 
   std::optional<InventoryTree> read(std::size_t row);
 
@@ -83,10 +87,12 @@ class RowReader {
                      InventoryField upper_field, std::optional<double> upper);
   void check_heights(std::size_t row, const InventoryTree& tree);
   void check_crown_type(std::size_t row);
+  TreeForm form(std::size_t row);
 
   const CsvTable& table_;
   const InventoryColumns& columns_;
   const std::vector<InventoryField> unread_;
+  const TreeForm usual_form_;
   std::vector<InventoryProblem>& problems_;
   std::map<TreeId, std::string> place_of_id_;
   bool good_ = true;
@@ -164,6 +170,15 @@ void RowReader::check_crown_type(std::size_t row) {
            "E, 2E, 4E or 8E (ellipsoid parts), or leave it empty");
 }
 
+TreeForm RowReader::form(std::size_t row) {
+  if (columns_.find(F::kForm) == nullptr || is_missing(text(row, F::kForm))) return usual_form_;
+  for (const TreeForm form : {TreeForm::kStandGrown, TreeForm::kOpenGrown})
+    if (text(row, F::kForm) == to_string(form)) return form;
+  complain(where(row, F::kForm), "form " + text(row, F::kForm) + " is unknown",
+           "stand or open: how the tree grew up, or leave it empty");
+  return usual_form_;
+}
+
 std::optional<InventoryTree> RowReader::read(std::size_t row) {
   good_ = true;
   InventoryTree tree;
@@ -177,6 +192,7 @@ std::optional<InventoryTree> RowReader::read(std::size_t row) {
   tree.where = table_.where(row);
   check_heights(row, tree);
   check_crown_type(row);
+  tree.form = form(row);
   return good_ ? std::optional(tree) : std::nullopt;
 }
 
@@ -199,8 +215,8 @@ void warn_of_shared_places(const std::vector<InventoryTree>& trees, const std::s
 }
 
 void add_trees(const CsvTable& table, const InventoryColumns& columns, std::vector<InventoryField> unread,
-               const std::string& name, InventoryReading& reading) {
-  RowReader reader(table, columns, std::move(unread), reading.problems);
+               TreeForm form, const std::string& name, InventoryReading& reading) {
+  RowReader reader(table, columns, std::move(unread), form, reading.problems);
   for (std::size_t row = 0; row < table.rows(); ++row)
     if (auto tree = reader.read(row)) reading.trees.push_back(std::move(*tree));
   if (columns.find(F::kLongitude) != nullptr && !reading.trees.empty()) {
@@ -234,7 +250,7 @@ bool InventoryReading::has_errors() const {
                      [](const InventoryProblem& p) { return p.severity == Severity::kError; });
 }
 
-InventoryReading examine_inventory(std::string_view csv, const std::string& name) try {
+InventoryReading examine_inventory(std::string_view csv, const std::string& name, TreeForm form) try {
   InventoryReading reading;
   std::vector<Error> bad_rows;
   const CsvTable table(csv, name, &bad_rows);
@@ -250,7 +266,7 @@ InventoryReading examine_inventory(std::string_view csv, const std::string& name
   });
   if (!readable || table.rows() == 0) return reading;
   const std::vector<InventoryField> unread = settle_units(table, columns, reading.problems);
-  add_trees(table, columns, unread, name, reading);
+  add_trees(table, columns, unread, form, name, reading);
   return reading;
 } catch (const Error& error) {  // no header to speak of
   return {{}, {{Severity::kError, error.where(), error.problem(), error.remedy()}}, 0};
@@ -260,15 +276,15 @@ InventoryReading examine_inventory(const std::filesystem::path& path) {
   return examine_inventory(content_of(path), path.string());
 }
 
-std::vector<InventoryTree> parse_inventory(std::string_view csv, const std::string& name) {
-  InventoryReading reading = examine_inventory(csv, name);
+std::vector<InventoryTree> parse_inventory(std::string_view csv, const std::string& name, TreeForm form) {
+  InventoryReading reading = examine_inventory(csv, name, form);
   for (const InventoryProblem& problem : reading.problems)
     if (problem.severity == Severity::kError) throw_invalid(problem.where, problem.what, problem.remedy);
   return std::move(reading.trees);
 }
 
-std::vector<InventoryTree> read_inventory(const std::filesystem::path& path) {
-  return parse_inventory(content_of(path), path.string());
+std::vector<InventoryTree> read_inventory(const std::filesystem::path& path, TreeForm form) {
+  return parse_inventory(content_of(path), path.string(), form);
 }
 
 }  // namespace sunfleck

@@ -41,7 +41,9 @@ struct InventoryReading {
 };
 
 // Lists every problem; throws only for a file that cannot be read.
-InventoryReading examine_inventory(std::string_view csv, const std::string& name);
+// `form`: of rows that state none.
+InventoryReading examine_inventory(std::string_view csv, const std::string& name,
+                                   TreeForm form = TreeForm::kStandGrown);
 InventoryReading examine_inventory(const std::filesystem::path& path);
 
 // The same and what only the species library knows: species without a file, heights and crowns far from what

@@ -57,7 +57,8 @@ constexpr std::array kNames = std::to_array<KnownName>({{"id_tree", F::kId},
                                                         {"crown_radius_m", F::kRadius},
                                                         {"r_m", F::kRadius},
                                                         {"crown_lad", F::kLeafAreaDensity},
-                                                        {"crown_type", F::kCrownType}});
+                                                        {"crown_type", F::kCrownType},
+                                                        {"form", F::kForm}});
 
 // Known to other programs, of no use here, no reason for a warning.
 const std::set<std::string>& ignored_names() {

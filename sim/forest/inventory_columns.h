@@ -28,7 +28,8 @@ enum class InventoryField {
   kRadiusWest,
   kRadius,
   kLeafAreaDensity,
-  kCrownType
+  kCrownType,
+  kForm
 };
 
 struct InventoryColumn {

@@ -184,6 +184,7 @@ void plant_rule(const ForestSpec& spec, std::size_t index, const RunControl& con
     tree.x_m = place.x;
     tree.y_m = place.y;
     tree.dbh_cm = draw_dbh_cm(rule, rule_label(index), size);
+    tree.form = rule.form;
     tree.where = rule_label(index);
     planted.trees.push_back(tree);
   }

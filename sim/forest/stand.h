@@ -25,6 +25,13 @@ void grow_crowns(const ForestSpec& spec, const std::vector<StandTree>& stand, co
 void grow_lsystems(const ForestSpec& spec, const std::vector<StandTree>& stand, const RunControl& control,
                    Forest& forest, std::vector<std::string>& notes);
 
+// spec.grow_in_light: all trees from seed, together; one prototype per tree. Stated sizes are not used. Trees
+// that die are left out. Throws for a species without such a grammar, ground that slopes, and
+// GrowthLight::kGrid without `grid_light`. Adds to `notes` what grew.
+void grow_stand_in_light(const ForestSpec& spec, const std::vector<StandTree>& stand,
+                         const GrowthLightMaker& grid_light, const RunControl& control, Forest& forest,
+                         std::vector<std::string>& notes);
+
 // Where a tree stands: on the terrain.
 Vec3 stem_foot_m(const Terrain& terrain, const InventoryTree& tree);
 

@@ -22,9 +22,13 @@ void require(bool right, const InventoryTree& tree, const std::string& what, con
   if (!right) throw_invalid(tree_label(tree), what, remedy);
 }
 
+// Of a species with such numbers: validate() has looked.
+bool is_open(const InventoryTree& tree) { return tree.form == TreeForm::kOpenGrown; }
+
 double crown_base_m(const InventoryTree& tree, const Species& species, double height_m) {
   if (tree.crown_base_m) return *tree.crown_base_m;
-  const double usual_m = (1.0 - species.crown_length_ratio) * height_m;
+  const double ratio = is_open(tree) ? species.open_grown->crown_length_ratio : species.crown_length_ratio;
+  const double usual_m = (1.0 - ratio) * height_m;
   return tree.widest_m ? std::min(usual_m, 0.8 * *tree.widest_m) : usual_m;  // stays under what was measured
 }
 
@@ -39,7 +43,8 @@ std::array<double, 4> radii_nesw_m(const InventoryTree& tree, const Species& spe
   }
   require(count == 0 || sum_m > 0, tree, "all measured crown radii are 0",
           "give a radius, or leave them out");
-  const double fallback_m = count > 0 ? sum_m / count : species.crown_radius_m(tree.dbh_cm);
+  const double fallback_m =
+      count > 0 ? sum_m / count : expected_size(species, tree.dbh_cm, tree.form).crown_radius_m;
   std::array<double, 4> radii{};
   for (std::size_t i = 0; i < 4; ++i) radii[i] = std::max(measured[i].value_or(fallback_m), kLeastRadiusM);
   return radii;
@@ -72,7 +77,8 @@ void validate(const InventoryTree& tree) {
 double tree_height_m(const InventoryTree& tree, const Species& species) {
   if (tree.height_m) return *tree.height_m;
   const double measured_m = std::max(tree.crown_base_m.value_or(0.0), tree.widest_m.value_or(0.0));
-  return std::max(species.height_m(tree.dbh_cm), 1.1 * measured_m);  // stays above what was measured
+  return std::max(expected_size(species, tree.dbh_cm, tree.form).height_m,
+                  1.1 * measured_m);  // stays above what was measured
 }
 
 CrownShape tree_crown(const InventoryTree& tree, const Species& species) {

@@ -23,7 +23,7 @@ namespace sunfleck {
 struct BudLight {
   // Once a year, before buds ask: this year's foliage of the tree.
   std::function<void(std::span<const LeafPlace>)> new_year;
-  // Light at a bud relative to open sky, 0 to 1.
+  // Light at a bud relative to open sky, 0 to 1. Safe from many threads at once.
   std::function<double(const Vec3& position_m)> at;
 };
 // The grid's openness where there is room, else 0. The grid must live as long as the answers are used.
@@ -33,9 +33,14 @@ struct GrowthOptions {
   int years = 25;            // 1 to 500
   double stop_height_m = 0;  // above 0: stops in the year that reaches it
   std::uint64_t seed = 1;
-  double twig_radius_m = 0.0006;     // of the wood below a single leaf
-  std::size_t most_leaves = 500000;  // more: Error(kLimitExceeded)
+  double twig_radius_m = 0.0006;             // of the wood below a single leaf
+  std::size_t most_leaves = 500000;          // of a tree; more: Error(kLimitExceeded)
+  std::size_t most_leaves_in_all = 4000000;  // of a stand that grows together: about 1 GB
 };
+
+// Throw Error(kInvalidInput) naming "growth: <field>": a number out of range; an answer that is missing.
+void validate(const GrowthOptions& options);
+void validate(const BudLight& light);
 
 struct GrownTree {
   Prototype tree;

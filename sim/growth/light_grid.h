@@ -19,6 +19,7 @@ namespace sunfleck {
 struct LeafPlace {
   Vec3 position_m;
   double area_m2;
+  Vec3 normal{0, 0, 1};  // unit; the grid knows no angles, other light does
 };
 
 struct LightGridOptions {

@@ -126,6 +126,8 @@ void read_names(const ConfigTable& table, Species& species) {
   for (const char* key : {"code", "latin"})
     if (table.text(key).empty()) throw_invalid(table.where(key), "is empty", "name the species");
   if (table.has("grammar")) species.grammar = table.directory() / table.text("grammar");
+  if (table.has("grammar_in_light"))
+    species.grammar_in_light = table.directory() / table.text("grammar_in_light");
 }
 
 }  // namespace

@@ -67,6 +67,8 @@ void claim_names(const Species& species, const std::filesystem::path& file,
 
 }  // namespace
 
+std::string to_string(TreeForm form) { return form == TreeForm::kOpenGrown ? "open" : "stand"; }
+
 double LeafAreaLaw::at(double dbh_cm, double height_m) const {
   return a * std::pow(dbh_cm, b) * std::pow(height_m, c);
 }

@@ -54,6 +54,7 @@ struct FoliageTemplate {
 
 // How a tree grew up: among others, which took the light from its lower branches, or alone.
 enum class TreeForm : std::uint8_t { kStandGrown, kOpenGrown };
+std::string to_string(TreeForm form);  // "stand", "open"
 
 // What is different in trees that always stood alone.
 struct OpenGrown {
@@ -87,9 +88,10 @@ struct Species {
   std::optional<OpenGrown> open_grown;
   std::optional<Demography> demography;
   FoliageTemplate foliage;
-  std::string crown_shape;        // "ellipsoid", "cone", "paraboloid"
-  std::filesystem::path grammar;  // empty: the species is known by its crown only
-  Material material;              // name = latin
+  std::string crown_shape;                 // "ellipsoid", "cone", "paraboloid"
+  std::filesystem::path grammar;           // empty: the species is known by its crown only
+  std::filesystem::path grammar_in_light;  // that asks for light (sim/growth); empty: there is none
+  Material material;                       // name = latin
   Confidence optics_confidence = Confidence::kLow;
 
   double height_m(double dbh_cm) const { return height.at(dbh_cm); }

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 const std::map<std::string, int>& ranks() {
   static const std::map<std::string, int> table = {
       {"sim/base", 0},         {"sim/config", 1},         {"sim/lsystem", 1},      {"sim/plant", 2},
-      {"sim/growth", 3},       {"sim/forest", 3},         {"sim/exchange", 4},     {"sim/grid", 4},
+      {"sim/growth", 3},       {"sim/forest", 4},         {"sim/exchange", 5},     {"sim/grid", 5},
       {"lighting/optics", 10}, {"lighting/sky", 10},      {"lighting/base", 11},   {"lighting/depth", 12},
       {"lighting/slab", 13},   {"lighting/envelope", 13}, {"lighting/shade", 12},  {"lighting/transport", 13},
       {"lighting/trace", 13},  {"lighting/links", 14},    {"lighting/canopy", 15}, {"lighting/plan", 15},

@@ -94,6 +94,16 @@ TEST_F(BadInput, ForestSpecs) {
        [](Spec& s) { s.mutable_understorey()->set_stems_ratio_per_5_cm(1); }},
       {"spec.understorey.smallest_dbh_cm", "got 0",
        [](Spec& s) { s.mutable_understorey()->set_smallest_dbh_cm(0); }},
+      {"spec.inventory[0].form", "unknown form 9",
+       [](Spec& s) { s.mutable_inventory(0)->set_form(static_cast<v1::TreeForm>(9)); }},
+      {"spec.grow_in_light.years", "got 0", [](Spec& s) { s.mutable_grow_in_light()->set_years(0); }},
+      {"spec.grow_in_light.years", "[1, 200]",
+       [](Spec& s) { s.mutable_grow_in_light()->set_years(1'000'000); }},
+      {"spec.grow_in_light.cell_m", "nan", [](Spec& s) { s.mutable_grow_in_light()->set_cell_m(kNan); }},
+      {"spec.grow_in_light.stop_height_m", "got -1",
+       [](Spec& s) { s.mutable_grow_in_light()->set_stop_height_m(-1); }},
+      {"spec.grow_in_light.light", "unknown light 9",
+       [](Spec& s) { s.mutable_grow_in_light()->set_light(static_cast<v1::GrowthLight>(9)); }},
       {"spec.planting", "100000 trees in all",
        [](Spec& s) {
          s.clear_inventory();

@@ -49,7 +49,7 @@ TEST(RenderService, ServedEqualsLocalByteByByte) {
     covered += static_cast<std::size_t>(tile.width_px * tile.height_px);
   };
   const RemoteRender served =
-      client.render(client.create_scene(spec).name, light, camera, Client::Files::kExrAndPng, {}, check);
+      client.render(client.create_scene(spec).name, light, camera, {}, Client::Files::kExrAndPng, {}, check);
   EXPECT_EQ(wrong, 0u);
   EXPECT_EQ(covered, 150u * 100u);
   EXPECT_EQ(pixels.size(), 150u * 100u);
@@ -66,7 +66,7 @@ TEST(RenderService, UsesTheLightMapThatWasStreamedBefore) {
   const std::string scene = client.create_scene(row_of_trees(2, 200)).name;
   const LightRequest light = noon(Method::kReference);
   client.light_map(scene, light);
-  client.render(scene, light, small_camera(), Client::Files::kNone);
+  client.render(scene, light, small_camera(), {}, Client::Files::kNone);
   EXPECT_EQ(load_of(client, "light_maps"), 1u);
 }
 

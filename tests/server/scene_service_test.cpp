@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "lighting/plan/growth_light.h"
 #include "sim/base/error.h"
 #include "sunfleck/v1/scene.grpc.pb.h"
 #include "tests/server/served.h"
@@ -87,6 +88,42 @@ TEST_F(SceneService, GrownCrownsArriveToo) {
   EXPECT_EQ(server_->client().create_scene(spec).name, "scenes/" + grown);
   spec.filling = CrownFilling::kLeaves;
   EXPECT_NE(content_hash(grow_forest(spec, species(), {})), grown);
+}
+
+TEST_F(SceneService, OpenGrownTreesArriveSo) {
+  ForestSpec spec = row_of_trees(2, 100);
+  const std::string in_stand = content_hash(grow_forest(spec, species(), {}));
+  spec.inventory[0].form = TreeForm::kOpenGrown;
+  const std::string open = content_hash(grow_forest(spec, species(), {}));
+  EXPECT_NE(open, in_stand);
+  EXPECT_EQ(server_->client().create_scene(spec).name, "scenes/" + open);
+  ForestSpec planted = row_of_trees(0, 50);
+  planted.plot_width_m = planted.plot_depth_m = 20;
+  planted.planting = {{"fasy", 3, PlantingPattern::kRows, 8, 20, 3, TreeForm::kOpenGrown}};
+  EXPECT_EQ(server_->client().create_scene(planted).name,
+            "scenes/" + content_hash(grow_forest(planted, species(), {})));
+}
+
+// Every key of [forest.grow_in_light] has a say in the stand that grows, there as here.
+TEST_F(SceneService, StandsThatGrowInLightAreTheSame) {
+  ForestSpec spec;
+  spec.name = "thicket";
+  spec.trees = TreeSource::kLsystem;
+  spec.plot_width_m = spec.plot_depth_m = 4;
+  spec.planting = {{"fasy", 3, PlantingPattern::kRows, 1.5, 20, 3}};
+  spec.grow_in_light = GrowInLight{8, 0, GrowthLight::kGrid, 0.5};
+  const std::string whole = content_hash(grow_lit_forest(spec, species(), {}));
+  EXPECT_EQ(server_->client().create_scene(spec).name, "scenes/" + whole);
+  const std::vector<void (*)(GrowInLight&)> changes = {
+      [](GrowInLight& g) { g.years = 7; }, [](GrowInLight& g) { g.stop_height_m = 2; },
+      [](GrowInLight& g) { g.light = GrowthLight::kOpenness; }, [](GrowInLight& g) { g.cell_m = 0.35; }};
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    ForestSpec changed = spec;
+    changes[i](*changed.grow_in_light);
+    const std::string local = content_hash(grow_lit_forest(changed, species(), {}));
+    EXPECT_NE(local, whole) << i;
+    EXPECT_EQ(server_->client().create_scene(changed).name, "scenes/" + local) << i;
+  }
 }
 
 TEST_F(SceneService, SameContentIsOneScene) {

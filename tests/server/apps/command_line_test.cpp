@@ -247,7 +247,7 @@ TEST(CommandLine, TellsOneClearErrorAndLeavesNothingBehind) {
 }
 
 TEST(CommandLine, EveryShippedSceneGrows) {
-  for (const auto& entry : fs::directory_iterator(test::source_dir() / "configs/scenes")) {
+  for (const auto& entry : fs::recursive_directory_iterator(test::source_dir() / "configs/scenes")) {
     if (entry.path().extension() != ".toml") continue;
     if (entry.path().stem().string().starts_with("cloture20") &&
         !test::shared_data("stands/cloture20/trees.csv"))
