@@ -7,6 +7,8 @@
 
 #include "lighting/render/camera_rays.h"
 #include "lighting/render/path_tracer.h"
+#include "lighting/render/raster_choice.h"
+#include "lighting/render/raster_image.h"
 #include "lighting/render/render_passes.h"
 #include "lighting/render/shader.h"
 #include "sim/base/error.h"
@@ -76,11 +78,8 @@ struct Stage {
         rays(request.camera) {}
 };
 
-void look_through_centre(const Stage& stage, int x, int y, std::size_t pixel, Image& image,
-                         const BandLightMap* map, const ForestIndex& index) {
-  const auto ray = stage.rays.through(x + 0.5, y + 0.5);
-  if (!ray) return;
-  const RayHit hit = stage.scene.closest_hit(ray->origin_m, ray->direction);
+void write_layers(const Stage& stage, const RayHit& hit, std::size_t pixel, Image& image,
+                  const BandLightMap* map, const ForestIndex& index) {
   if (hit.kind == HitKind::kSky) return;
   image.depth_m[pixel] = static_cast<float>(hit.distance_m);
   for (int c = 0; c < 3; ++c)
@@ -91,6 +90,13 @@ void look_through_centre(const Stage& stage, int x, int y, std::size_t pixel, Im
   const ElementLight& light = map->elements[index.first_element(hit.instance) +
                                             stage.scene.original_element(hit.instance, hit.local)];
   image.irradiance_w_m2[pixel] = light.front.total() + light.back.total();
+}
+
+void look_through_centre(const Stage& stage, int x, int y, std::size_t pixel, Image& image,
+                         const BandLightMap* map, const ForestIndex& index) {
+  const auto ray = stage.rays.through(x + 0.5, y + 0.5);
+  if (!ray) return;
+  write_layers(stage, stage.scene.closest_hit(ray->origin_m, ray->direction), pixel, image, map, index);
 }
 
 Image run(const Stage& stage, const RenderRequest& request, int samples_per_unit, const UnitSampler& sample,
@@ -161,6 +167,15 @@ Image render(const Forest& forest, const OpticsTable& optics, const LightMap& ma
   const ShadingParts grey_parts{stage.scene, index, band, grey_surfaces, grey_light, grey, request.leaf_sun};
   const Shader shader(parts, find_mean_light(parts, grey_parts));
   const int samples = samples_per_unit(request);
+  if (const auto raster = chosen_raster(stage.scene, request, stage.light)) {
+    const HitLayers layers = [&](const RayHit& hit, std::size_t pixel, Image& image) {
+      write_layers(stage, hit, pixel, image, &map.bands.front(), index);
+    };
+    Image image = rasterise(*raster, parts, shader, request.camera, stage.light,
+                            plan_passes(request.camera, request.effort, samples), layers, control, tiles);
+    image.visibility = Visibility::kRaster;
+    return image;
+  }
   const UnitSampler sample =
       unit_sampler(stage, request, samples, [&](const CameraRay& ray, PathSamples& numbers) {
         return shader.radiance(stage.scene.closest_hit(ray.origin_m, ray.direction), ray.direction, numbers);
