@@ -35,6 +35,7 @@ class PictureScene {
   // The forest shown. Its instances stand where those of the forest given do; their prototype ids are its
   // own.
   const Forest& forest() const { return shown_ ? *shown_ : forest_; }
+  const Forest& original_forest() const { return forest_; }
   const Prototype& shown_prototype(std::uint32_t instance) const {
     return forest().prototypes[forest().instances[instance].prototype.value];
   }

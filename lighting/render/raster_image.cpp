@@ -11,10 +11,10 @@
 namespace sunfleck {
 namespace {
 
-constexpr std::uint32_t kMostSamplesAtOnce = 32;       // of a pixel, in one chunk of units
-constexpr std::size_t kTileSampleRoom = 16384;         // what a fast cache holds
+constexpr std::uint32_t kMostSamplesAtOnce = 16;       // of a pixel, in one chunk of units
+constexpr std::size_t kTileSampleRoom = 32768;         // what a fast cache holds
 constexpr std::size_t kBatchSamples = 4u << 20;        // between two looks from the sun
-constexpr std::uint32_t kDiscDirections = 8;           // per chunk of units
+constexpr std::uint32_t kDiscDirections = 4;           // per chunk of units
 constexpr std::uint64_t kMostCells = 4096;
 constexpr std::size_t kMostTrees = 4'000'000;
 
@@ -147,7 +147,7 @@ void ChunkPainter::ask_sun(const VisibleTile& visible, const TileWork& work, std
       point.self = raster_.sun_trees.number_of(t.placed.instance, {t.cell.x - cell.x, t.cell.y - cell.y}, figure);
   }
   point.lot = visible.lot(i) ^ 0x5bd1e995u;
-  const std::size_t m = (place + visible.lot(i) / 8191u) % to_sun_.size();
+  const std::size_t m = (place + place / samples_.drawn()) % to_sun_.size();
   const Vec3 at = sun_frames_[m].from_world(p);
   if (!raster_.sun_trees.may_shade(at)) return;
   point.x_m = static_cast<float>(at.x), point.y_m = static_cast<float>(at.y);

@@ -92,8 +92,10 @@ RayHit RasterShader::hit_at(std::uint32_t number, const CameraRay& ray) const {
                                        : round_hit(tree, figures.rounds[figure - figures.flats.size()], ray);
 }
 
-double RasterShader::pixel_m(const RayHit& hit) const {
-  return (frame_.perspective ? hit.distance_m : 1.0) / frame_.px_per_unit;
+// Of a slanted surface, the side of the square as large as what the pixel shows of it.
+double RasterShader::pixel_m(const RayHit& hit, const Vec3& direction) const {
+  const double across = (frame_.perspective ? hit.distance_m : 1.0) / frame_.px_per_unit;
+  return across / std::sqrt(std::max(0.01, std::abs(glm::dot(hit.normal, direction))));
 }
 
 Vec3 RasterShader::sky_at(const Vec2& place_px) const {
@@ -104,10 +106,11 @@ Shader::SunAndRest RasterShader::light_at(std::uint32_t number, const Vec2& plac
   const auto ray = rays_.through(place_px.x, place_px.y);
   if (number == kSkyNumber) return {parts_.light.background(ray->direction), Vec3(0.0)};
   const RayHit hit = hit_at(number, *ray);
-  if (hit.kind == HitKind::kFoliage) return shader_.leaf_parts(hit, -ray->direction);
+  const double footprint_m = pixel_m(hit, ray->direction);
+  if (hit.kind == HitKind::kFoliage) return shader_.leaf_parts(hit, -ray->direction, footprint_m);
   if (hit.kind == HitKind::kGround && !hit.front) return {};  // the dark below
-  const Vec3 share = parts_.surfaces.at(hit).reflect / kPi;
-  const Vec3 rest = hit.kind == HitKind::kGround ? gathered_.on_ground(hit.position_m, pixel_m(hit))
+  const Vec3 share = parts_.surfaces.at(hit, footprint_m).reflect / kPi;
+  const Vec3 rest = hit.kind == HitKind::kGround ? gathered_.on_ground(hit.position_m, footprint_m)
                                                  : gathered_.on_wood(hit);
   return {share * rest, share * shader_.open_sun(hit.normal)};
 }

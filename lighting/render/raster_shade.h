@@ -25,7 +25,7 @@ class RasterShader {
   RayHit ground_hit(const CameraRay& ray) const;
   RayHit flat_hit(const SeenTree& tree, const FlatFigure& figure, const CameraRay& ray) const;
   RayHit round_hit(const SeenTree& tree, const RoundFigure& figure, const CameraRay& ray) const;
-  double pixel_m(const RayHit& hit) const;
+  double pixel_m(const RayHit& hit, const Vec3& direction) const;
 
   const ShadingParts& parts_;
   const Shader& shader_;

@@ -13,7 +13,7 @@ namespace {
 constexpr double kDisc = 0.02;            // wider than the disc of any sun that is drawn, in radians
 constexpr std::size_t kMostCells = 1u << 22;
 constexpr double kPointsPerCell = 2.0;
-constexpr std::int32_t kCoarse = 16;      // cells along a block
+constexpr std::int32_t kCoarse = 4;       // cells along a block
 constexpr float kRounding = 4e-7f;        // of the scene's extent, as in RayScene
 
 // The points of one direction, cell by cell.

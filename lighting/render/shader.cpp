@@ -58,8 +58,8 @@ Vec3 Shader::leaf_sunlit_as_stored(const RayHit& hit, const Surface& s, const Ve
          sun * parts_.colour.sun_tint;
 }
 
-Shader::SunAndRest Shader::leaf_parts(const RayHit& hit, const Vec3& to_viewer) const {
-  const Surface s = parts_.surfaces.at(hit);
+Shader::SunAndRest Shader::leaf_parts(const RayHit& hit, const Vec3& to_viewer, double footprint_m) const {
+  const Surface s = parts_.surfaces.at(hit, footprint_m);
   if (parts_.leaf_sun == LeafSun::kStored) return {leaf_sunlit_as_stored(hit, s, to_viewer), Vec3(0.0)};
   SunAndRest parts{leaf_lit(hit, s, [&](const FaceLight& face) { return diffuse(face); }), Vec3(0.0)};
   if (!parts_.light.has_beam()) return parts;

@@ -44,11 +44,11 @@ class Shader {
 
   // Radiance towards the viewer in two parts: without traced sunlight, and what the sun adds where nothing
   // lies between (taken from the middle of its disc). A shoot's is the mean over its two faces. With stored
-  // sunlight the second part is 0.
+  // sunlight the second part is 0. `footprint_m` as for SurfaceTable::at.
   struct SunAndRest {
     Vec3 rest{0}, sun{0};
   };
-  SunAndRest leaf_parts(const RayHit& hit, const Vec3& to_viewer) const;
+  SunAndRest leaf_parts(const RayHit& hit, const Vec3& to_viewer, double footprint_m) const;
   // Irradiance of a plane with this normal by the middle of the sun's disc; 0 from behind.
   Vec3 open_sun(const Vec3& normal) const;
   // Sky and scattered light of a face.
