@@ -100,6 +100,14 @@ class FigureDrawing {
     });
   }
 
+  // Drawn as a strip through its axis that faces the view: the same silhouette but for the taper (the mean radius)
+  // and slanted ends, and at most its radius too far away.
+  bool is_thin(double widest_m, const PictureExtent& extent) const {
+    constexpr double kThinPx = 0.5, kThinForSun_m = 0.01;
+    if (!range_.ahead_only) return widest_m < kThinForSun_m;
+    return widest_m * frame_.px_per_unit * (frame_.perspective ? extent.nearness : 1.0) < kThinPx;
+  }
+
   void draw_round(const PlacedView& view, const RoundFigure& figure, std::uint32_t number) {
     const Vec3 base = view.point(figure.base), axis = view.direction(figure.axis) / view.scale;
     const double length = view.scale * figure.length;
@@ -111,6 +119,20 @@ class FigureDrawing {
     const BinBox box = bins_of(extent, bins_.width(), bins_.height());
     if (!extent.seen || box.empty() || bins_.hidden(box, extent.nearness)) return;
     const Vec2 corner(box.x0, box.y0);
+    if (figure.extinction_per_m == 0.0f && is_thin(widest, extent)) {
+      const Vec3 middle = 0.5 * (base + tip), sight = frame_.perspective ? middle : Vec3(0, 0, 1);
+      const Vec3 aside = glm::cross(axis, sight);
+      const double sine = glm::length(aside);
+      if (!(sine > 1e-6 * glm::length(sight))) return;
+      const double radius = view.scale * (figure.radius + 0.5 * figure.taper * figure.length);
+      const auto strip = flat_forms(frame_, middle, 0.5 * length * axis, radius / sine * aside, corner);
+      if (!strip) return;
+      RowCuts cuts;
+      if (box.x1 - box.x0 > 2) cuts = cuts_of(*strip, FlatShape::kParallelogram, frame_.perspective);
+      return for_each_run(box, cuts, number, nullptr, [&](const PlaceRun& run) {
+        meet_flat<FlatShape::kParallelogram>(*strip, run, range_, bins_);
+      });
+    }
     const RoundForms forms = round_forms(frame_, figure, base, axis, view.scale, corner);
     RowCuts cuts;
     // A shoot's caps reach past the band of its axis; wood has none.

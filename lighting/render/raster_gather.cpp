@@ -9,10 +9,11 @@
 namespace sunfleck {
 namespace {
 
-constexpr double kGroundSpacing_m = 0.75, kStemSpacing_m = 0.5;
-constexpr double kThickest_m = 0.03, kLeafReach_m = 0.6;
-constexpr std::uint32_t kGroundRays = 64, kStemRays = 32;
-constexpr int kAround = 6;
+constexpr double kGroundSpacing_m = 0.75, kStemSpacing_m = 0.75;
+constexpr double kSpacingPerMetre = 0.04;  // of the ground's nodes, at a distance from the camera
+constexpr double kThickest_m = 0.03, kLeafReach_m = 2.0;
+constexpr std::uint32_t kGroundRays = 64, kStemRays = 24;
+constexpr int kAround = 4;
 
 std::uint64_t key_of(std::uint64_t kind, std::uint64_t a, std::uint64_t b, std::uint64_t c) {
   return mix_seed(mix_seed(mix_seed(kind, a), b), c);
@@ -47,24 +48,44 @@ GatheredLight::GatheredLight(const ShadingParts& parts, const Shader& shader, co
     : parts_(parts), shader_(shader), table_(table) {
   const Forest& forest = parts.scene.forest();
   lattice_m_ = Vec2(kGroundSpacing_m);
-  if (forest.period)  // a whole number of steps per period
-    lattice_m_ = forest.period->size_m / glm::max(Vec2(1.0), glm::round(forest.period->size_m / lattice_m_));
+  if (forest.period) {  // a power of two of steps per period, so that coarser lattices repeat too
+    const Vec2 size = forest.period->size_m;
+    lattice_m_ = size / Vec2(std::exp2(std::max(0.0, std::round(std::log2(size.x / kGroundSpacing_m)))),
+                             std::exp2(std::max(0.0, std::round(std::log2(size.y / kGroundSpacing_m)))));
+  }
   for (std::uint32_t p = 0; p < forest.prototypes.size(); ++p) {
-    const PrototypeFigures& figures = table.of(PrototypeId{p});
-    std::vector<std::uint32_t>& near = leaves_near_.emplace_back(forest.prototypes[p].wood.size(), 0u);
-    for (const FigureCluster& wood : figures.clusters) {
-      if (wood.flat) continue;
-      // The nearest leaves of a cluster of wood serve all its segments.
-      std::uint32_t nearest = 0;
-      float distance = static_cast<float>(kLeafReach_m) + wood.radius;
-      for (std::uint32_t c = 0; c < figures.clusters.size(); ++c) {
-        const FigureCluster& leaves = figures.clusters[c];
-        const float d = glm::length(leaves.centre - wood.centre);
-        if (d < distance && is_foliage(figures, leaves)) distance = d, nearest = c + 1;
-      }
-      for (std::uint32_t i = wood.first; i < wood.first + wood.count; ++i)
-        if (figures.rounds[i].extinction_per_m == 0.0f) near[figures.rounds[i].local] = nearest;
+    find_leaves(forest.prototypes[p], table.of(PrototypeId{p}));
+    share_stems(forest.prototypes[p]);
+  }
+}
+
+// The nearest leaves of a cluster of wood serve all its segments.
+void GatheredLight::find_leaves(const Prototype& prototype, const PrototypeFigures& figures) {
+  std::vector<std::uint32_t>& near = leaves_near_.emplace_back(prototype.wood.size(), 0u);
+  for (const FigureCluster& wood : figures.clusters) {
+    if (wood.flat || is_foliage(figures, wood)) continue;
+    std::uint32_t nearest = 0;
+    float distance = static_cast<float>(kLeafReach_m) + wood.radius;
+    for (std::uint32_t c = 0; c < figures.clusters.size(); ++c) {
+      const FigureCluster& leaves = figures.clusters[c];
+      const float d = glm::length(leaves.centre - wood.centre);
+      if (d < distance && is_foliage(figures, leaves)) distance = d, nearest = c + 1;
     }
+    for (std::uint32_t i = wood.first; i < wood.first + wood.count; ++i)
+      near[figures.rounds[i].local] = nearest;
+  }
+}
+
+void GatheredLight::share_stems(const Prototype& prototype) {
+  std::unordered_map<std::uint64_t, std::uint32_t> first;  // thick segment of each cube
+  std::vector<std::uint32_t>& shares = stem_of_.emplace_back();
+  for (std::uint32_t i = 0; i < prototype.wood.size(); ++i) {
+    const WoodSegment& s = prototype.wood[i];
+    shares.push_back(i);
+    if (glm::length(Vec3(s.to_m) - Vec3(s.from_m)) > kStemSpacing_m) continue;
+    const Vec3 cube = glm::floor(0.5 * (Vec3(s.from_m) + Vec3(s.to_m)) / kStemSpacing_m);
+    const auto whole = [](double v) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(v)); };
+    shares.back() = first.try_emplace(key_of(whole(cube.x), whole(cube.y), whole(cube.z), 0), i).first->second;
   }
 }
 
@@ -99,17 +120,19 @@ GatheredLight::Node GatheredLight::ground_node(std::uint64_t level, std::int64_t
                 kGroundRays);
 }
 
-Vec3 GatheredLight::on_ground(const Vec3& p, double pixel_m) {
+Vec3 GatheredLight::on_ground(const Vec3& p, double pixel_m, double distance_m) {
   const Forest& forest = parts_.scene.forest();
   if (parts_.scene.box().empty())
     return nodes_.get(key_of(0, 0, 0, 0), [&] { return ground_node(0, 0, 0, lattice_m_); }).irradiance_w_m2;
-  std::uint64_t level = 0;
-  Vec2 spacing = lattice_m_;
-  if (!forest.period) {
-    const double wanted = std::max(2.0 * pixel_m, 0.1 * distance_to(parts_.scene.box(), p));
-    level = static_cast<std::uint64_t>(std::max(0.0, std::floor(std::log2(wanted / spacing.x))));
-    spacing *= std::exp2(static_cast<double>(level));
-  }
+  const double beside = forest.period ? 0.0 : distance_to(parts_.scene.box(), p);
+  const double wanted = std::max({2.0 * pixel_m, 0.1 * beside, kSpacingPerMetre * distance_m});
+  double level = std::max(0.0, std::floor(std::log2(wanted / lattice_m_.x)));
+  if (forest.period)  // at least eight steps
+    level = std::min(level, std::max(0.0, std::floor(std::log2(std::min(forest.period->size_m.x / lattice_m_.x,
+                                                                        forest.period->size_m.y / lattice_m_.y) /
+                                                               8.0))));
+  const Vec2 spacing = lattice_m_ * std::exp2(level);
+  const auto coarseness = static_cast<std::uint64_t>(level);
   const Vec2 origin = forest.period ? forest.period->origin_m : Vec2(0.0);
   const Vec2 place = (Vec2(p) - origin) / spacing, low = glm::floor(place), rest = place - low;
   Vec3 sum(0.0);
@@ -124,8 +147,8 @@ Vec3 GatheredLight::on_ground(const Vec3& p, double pixel_m) {
       x = wrapped(x, forest.period->size_m.x, spacing.x), y = wrapped(y, forest.period->size_m.y, spacing.y);
     }
     const Node node =
-        nodes_.get(key_of(level, static_cast<std::uint64_t>(x), static_cast<std::uint64_t>(y), 0),
-                   [&] { return ground_node(level, x, y, spacing); });
+        nodes_.get(key_of(coarseness, static_cast<std::uint64_t>(x), static_cast<std::uint64_t>(y), 0),
+                   [&] { return ground_node(coarseness, x, y, spacing); });
     const double weight = node.share * ((i & 1) != 0 ? rest.x : 1.0 - rest.x) *
                           ((i >> 1) != 0 ? rest.y : 1.0 - rest.y);
     sum += weight * node.irradiance_w_m2;
@@ -195,44 +218,46 @@ GatheredLight::AmbientCube GatheredLight::cube(std::uint32_t instance, std::uint
   return cube;
 }
 
+// Nodes around the segment that serves; `on` between two of them, `up` between two rings of a long segment.
 Vec3 GatheredLight::stem(const RayHit& hit) {
   const Forest& forest = parts_.scene.forest();
   const Instance& at = forest.instances[hit.instance];
-  const WoodSegment& s = forest.prototypes[at.prototype.value].wood[hit.local];
+  RayHit from = hit;
+  from.kind = HitKind::kWood;
+  from.local = stem_of_[at.prototype.value][hit.local];
+  const WoodSegment& s = forest.prototypes[at.prototype.value].wood[from.local];
   const Vec3 base = world_from_tree(at, Vec3(s.from_m)), tip = world_from_tree(at, Vec3(s.to_m));
   const double length = glm::length(tip - base);
+  if (!(length > 0.0)) return Vec3(0.0);
   const Vec3 axis = (tip - base) / length;
   const Basis around = basis_around(axis);
   const double taper = at.scale * (static_cast<double>(s.radius_to_m) - s.radius_from_m) / length;
-  const int steps = std::clamp(static_cast<int>(std::ceil(length / kStemSpacing_m)), 1, 1000);
-  const Vec3 from_base = hit.on_original_m - base;
-  const double along = std::clamp(glm::dot(from_base, axis) / length, 0.0, 1.0) * steps;
-  // The side that was seen: inside an open stem the normal looks at the axis.
+  const int rings = std::clamp(static_cast<int>(std::ceil(length / (at.scale * kStemSpacing_m))), 1, 1000);
+  const double along = std::clamp(
+      glm::dot(hit.on_original_m - base, axis) / length * rings - 0.5, 0.0, rings - 1.0);
   double turn = std::atan2(glm::dot(hit.normal, around.bitangent), glm::dot(hit.normal, around.tangent)) /
                 (2.0 * kPi) * kAround;
   if (turn < 0.0) turn += kAround;
-  const int step = std::min(static_cast<int>(along), steps - 1), side = static_cast<int>(turn) % kAround;
-  const double up = along - step, on = turn - std::floor(turn);
+  const int ring = static_cast<int>(along), side = static_cast<int>(turn) % kAround;
+  const double up = along - ring, on = turn - std::floor(turn);
   Vec3 sum(0.0);
   double weights = 0.0;
   for (int i = 0; i < 4; ++i) {
-    const int k = step + (i & 1), a = (side + (i >> 1)) % kAround;
+    const int k = ring + (i & 1), a = (side + (i >> 1)) % kAround;
+    double weight = ((i & 1) != 0 ? up : 1.0 - up) * ((i >> 1) != 0 ? on : 1.0 - on);
+    if (weight == 0.0) continue;
     const std::uint64_t place =
         static_cast<std::uint64_t>(k) * kAround + static_cast<std::uint64_t>(a) + (hit.front ? 1u << 20 : 0u);
-    const std::uint64_t key = key_of(hit.instance, hit.local, place, 5);
+    const std::uint64_t key = key_of(hit.instance, from.local, place, 5);
     const Node node = nodes_.get(key, [&] {
-      const double angle = 2.0 * kPi * a / kAround;
+      const double angle = 2.0 * kPi * a / kAround, h = (k + 0.5) / rings * length;
       const Vec3 out = std::cos(angle) * around.tangent + std::sin(angle) * around.bitangent;
-      // Nodes at the ends are drawn in a little, so that they do not lie in the next segment.
-      const double h = std::clamp(static_cast<double>(k) / steps, 0.1, 0.9) * length;
-      RayHit from = hit;
-      from.normal = glm::normalize(out - taper * axis);
-      const double radius = at.scale * static_cast<double>(s.radius_from_m) + taper * h;
-      from.on_original_m = base + h * axis + (hit.front ? radius : -radius) * out;
-      return gather(from, key, kStemRays);
+      RayHit start = from;
+      start.normal = (hit.front ? 1.0 : -1.0) * glm::normalize(out - taper * axis);
+      start.on_original_m = base + h * axis + (at.scale * static_cast<double>(s.radius_from_m) + taper * h) * out;
+      return gather(start, key, kStemRays);
     });
-    const double weight =
-        node.share * ((i & 1) != 0 ? up : 1.0 - up) * ((i >> 1) != 0 ? on : 1.0 - on);
+    weight *= node.share;
     sum += weight * node.irradiance_w_m2;
     weights += weight;
   }

@@ -1,10 +1,11 @@
 // Sky and scattered light on wood and ground, asked once per place and kept: what Shader finds with one ray
 // per sample, found with many rays at nodes and interpolated between them.
 //
-//   ground  nodes on a lattice, bilinear. 0.75 m apart below and beside the trees; farther off, or where a
-//           pixel is wider, twice, four times ... that.
-//   stems   nodes every half metre along each segment, six around it, linear in both.
-//   twigs   (below 3 cm of radius, leaves within 0.6 m) without rays: light has come to the leaves nearby
+//   ground  nodes on a lattice, bilinear. About 0.75 m apart where the camera is near; where a pixel is wider
+//           or camera or trees are far, twice, four times ... that.
+//   stems   four nodes around a segment, linear between them; segments whose middles share a cube of 0.75 m
+//           share nodes, longer ones have their own, one every 0.75 m.
+//   twigs   (below 3 cm of radius, leaves within 2 m) without rays: light has come to the leaves nearby
 //           already. Six directions, in each the stored light of their faces weighed by their cosine squared.
 //
 // What a node holds depends on its place alone: the same for any number of threads and order.
@@ -25,8 +26,9 @@ class GatheredLight {
   // All must outlive it.
   GatheredLight(const ShadingParts& parts, const Shader& shader, const FigureTable& table);
 
-  // W m-2 on the ground at a place of the base cell, seen by pixels `pixel_m` wide there.
-  Vec3 on_ground(const Vec3& point_m, double pixel_m);
+  // W m-2 on the ground at a place of the base cell, seen from `distance_m` (0: from everywhere alike) by pixels
+  // `pixel_m` wide there.
+  Vec3 on_ground(const Vec3& point_m, double pixel_m, double distance_m);
   // On wood that was met (RayHit of kind kWood or kWoodMesh, on_original_m, normal).
   Vec3 on_wood(const RayHit& hit);
 
@@ -52,6 +54,8 @@ class GatheredLight {
   };
 
   Node ground_node(std::uint64_t level, std::int64_t x, std::int64_t y, const Vec2& spacing_m) const;
+  void find_leaves(const Prototype& prototype, const PrototypeFigures& figures);
+  void share_stems(const Prototype& prototype);
   Node gather(const RayHit& from, std::uint64_t key, std::uint32_t rays) const;
   Vec3 stem(const RayHit& hit);
   AmbientCube cube(std::uint32_t instance, std::uint32_t leaf_cluster) const;
@@ -60,8 +64,8 @@ class GatheredLight {
   const Shader& shader_;
   const FigureTable& table_;
   Vec2 lattice_m_{0.75};
-  // Per shown prototype and wood segment: 1 + cluster of leaves nearby; 0 none.
-  std::vector<std::vector<std::uint32_t>> leaves_near_;
+  // Per shown prototype and wood segment: 1 + cluster of leaves nearby, 0 none; the segment whose nodes serve.
+  std::vector<std::vector<std::uint32_t>> leaves_near_, stem_of_;
   Kept<Node> nodes_;
   Kept<AmbientCube> cubes_;
 };

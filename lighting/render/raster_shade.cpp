@@ -110,7 +110,8 @@ Shader::SunAndRest RasterShader::light_at(std::uint32_t number, const Vec2& plac
   if (hit.kind == HitKind::kFoliage) return shader_.leaf_parts(hit, -ray->direction, footprint_m);
   if (hit.kind == HitKind::kGround && !hit.front) return {};  // the dark below
   const Vec3 share = parts_.surfaces.at(hit, footprint_m).reflect / kPi;
-  const Vec3 rest = hit.kind == HitKind::kGround ? gathered_.on_ground(hit.position_m, footprint_m)
+  const Vec3 rest = hit.kind == HitKind::kGround ? gathered_.on_ground(hit.position_m, footprint_m,
+                                                                            frame_.perspective ? hit.distance_m : 0.0)
                                                  : gathered_.on_wood(hit);
   return {share * rest, share * shader_.open_sun(hit.normal)};
 }
