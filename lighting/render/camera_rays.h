@@ -21,6 +21,10 @@ class CameraRays {
   // pixels; the centre of pixel (0, 0) is (0.5, 0.5). Nothing outside the circle of a fisheye picture.
   std::optional<CameraRay> through(double x_px, double y_px) const;
 
+  const Vec3& forward() const { return forward_; }
+  const Vec3& right() const { return right_; }
+  const Vec3& up() const { return up_; }
+
  private:
   CameraRay pinhole(double right_px, double up_px) const;
   CameraRay orthographic(double right_px, double up_px) const;

@@ -60,10 +60,24 @@ double lattice_noise(const Vec2& at, std::uint64_t seed) {
                    std::lerp(lattice_value(x, y + 1, seed), lattice_value(x + 1, y + 1, seed), u), v);
 }
 
-Vec3 litter_pattern(const Vec2& at) {
-  const double patches = 0.22 * lattice_noise(at / 2.3, 1) + 0.16 * lattice_noise(at / 0.6, 2);
-  const double litter = 0.28 * lattice_noise(at / 0.11, 3) + 0.2 * lattice_noise(at / 0.04, 4);
-  const double warmth = 0.1 * lattice_noise(at / 0.9, 5) + 0.06 * lattice_noise(at / 0.08, 6);
+namespace {
+
+// Noise of one size as its mean over a footprint.
+double noise_seen(const Vec2& at_m, const Vec2& size_m, std::uint64_t seed, double footprint_m) {
+  constexpr double kNothing = 0.02;
+  const double kept = 1.0 / (1.0 + footprint_m * footprint_m / (size_m.x * size_m.y));
+  return kept > kNothing ? kept * lattice_noise(at_m / size_m, seed) : 0.0;
+}
+
+}  // namespace
+
+Vec3 litter_pattern(const Vec2& at, double footprint_m) {
+  const auto noise = [&](double size_m, std::uint64_t seed) {
+    return noise_seen(at, Vec2(size_m), seed, footprint_m);
+  };
+  const double patches = 0.22 * noise(2.3, 1) + 0.16 * noise(0.6, 2);
+  const double litter = 0.28 * noise(0.11, 3) + 0.2 * noise(0.04, 4);
+  const double warmth = 0.1 * noise(0.9, 5) + 0.06 * noise(0.08, 6);
   return Vec3(1.0 + patches + litter) * Vec3(1.0 + warmth, 1.0, 1.0 - warmth);
 }
 
@@ -137,16 +151,26 @@ Vec3 MaterialLook::leaf_normal(const Vec2& at) const {
   return glm::normalize(turned);
 }
 
-Vec3 MaterialLook::bark(const Vec2& at_m) const {
+double MaterialLook::leaf_pattern_left(double stretch) const {
+  const bool images = reflectance_ || thickness_;
+  const double whole = images ? 0.1 : 0.03, none = images ? 0.5 : 0.15;
+  return std::clamp((none - stretch) / (none - whole), 0.0, 1.0);
+}
+
+Vec3 MaterialLook::bark(const Vec2& at_m, double footprint_m) const {
   if (bark_) {
+    if (footprint_m > bark_width_m_) return Vec3(1.0);
     const double height_m = bark_width_m_ * bark_->height_px / bark_->width_px;
     const Vec2 place = at_m / Vec2(bark_width_m_, height_m);
     return ratio(bark_->colour(place - glm::floor(place), TextureEdge::kRepeat), mean_bark_);
   }
   if (!patterns_) return Vec3(1.0);
   // Furrows along the stem, broken every few decimetres.
-  const double furrows = 0.35 * lattice_noise({at_m.x / 0.025, at_m.y / 0.16}, 7);
-  const double blotches = 0.2 * lattice_noise(at_m / 0.35, 8) + 0.12 * lattice_noise(at_m / 0.012, 9);
+  const auto noise = [&](const Vec2& size_m, std::uint64_t seed) {
+    return noise_seen(at_m, size_m, seed, footprint_m);
+  };
+  const double furrows = 0.35 * noise({0.025, 0.16}, 7);
+  const double blotches = 0.2 * noise(Vec2(0.35), 8) + 0.12 * noise(Vec2(0.012), 9);
   return Vec3(1.0 + furrows + blotches);
 }
 

@@ -39,6 +39,7 @@ class PictureScene {
   // The forest shown. Its instances stand where those of the forest given do; their prototype ids are its
   // own.
   const Forest& forest() const { return shown_ ? shown_->forest : forest_; }
+  const Forest& original_forest() const { return forest_; }
   // A ray of cast c (RayStart) meets the trees of that cast.
   std::size_t casts() const { return shown_ && !shown_->casts.empty() ? shown_->casts.size() : 1; }
   PrototypeId shown_id(const RayHit& hit) const {

@@ -8,6 +8,8 @@
 
 #include "lighting/render/camera_rays.h"
 #include "lighting/render/path_tracer.h"
+#include "lighting/render/raster_choice.h"
+#include "lighting/render/raster_image.h"
 #include "lighting/render/render_passes.h"
 #include "lighting/render/seen_trees.h"
 #include "lighting/render/shader.h"
@@ -79,11 +81,8 @@ struct Stage {
         rays(request.camera) {}
 };
 
-void look_through_centre(const Stage& stage, int x, int y, std::size_t pixel, Image& image,
-                         const BandLightMap* map, const ForestIndex& index) {
-  const auto ray = stage.rays.through(x + 0.5, y + 0.5);
-  if (!ray) return;
-  const RayHit hit = stage.scene.closest_hit(ray->origin_m, ray->direction);
+void write_layers(const Stage& stage, const RayHit& hit, std::size_t pixel, Image& image,
+                  const BandLightMap* map, const ForestIndex& index) {
   if (hit.kind == HitKind::kSky) return;
   image.depth_m[pixel] = static_cast<float>(hit.distance_m);
   for (int c = 0; c < 3; ++c)
@@ -96,6 +95,18 @@ void look_through_centre(const Stage& stage, int x, int y, std::size_t pixel, Im
   image.irradiance_w_m2[pixel] = light.front.total() + light.back.total();
 }
 
+void look_through_centre(const Stage& stage, int x, int y, std::size_t pixel, Image& image,
+                         const BandLightMap* map, const ForestIndex& index) {
+  const auto ray = stage.rays.through(x + 0.5, y + 0.5);
+  if (!ray) return;
+  write_layers(stage, stage.scene.closest_hit(ray->origin_m, ray->direction), pixel, image, map, index);
+}
+
+void count_details(const PictureScene& scene, Image& image) {
+  for (std::uint32_t i = 0; i < scene.forest().instances.size(); ++i)
+    ++image.trees_at[static_cast<std::size_t>(scene.detail_of(i))];
+}
+
 Image run(const Stage& stage, const RenderRequest& request, int samples_per_unit, const UnitSampler& sample,
           const BandLightMap* map, const ForestIndex& index, const RunControl& control,
           const TileSink& tiles) {
@@ -104,8 +115,7 @@ Image run(const Stage& stage, const RenderRequest& request, int samples_per_unit
   };
   Image image = run_passes(request.camera, plan_passes(request.camera, request.effort, samples_per_unit),
                            sample, layers, control, tiles);
-  for (std::uint32_t i = 0; i < stage.scene.forest().instances.size(); ++i)
-    ++image.trees_at[static_cast<std::size_t>(stage.scene.detail_of(i))];
+  count_details(stage.scene, image);
   return image;
 }
 
@@ -180,6 +190,16 @@ Image render(const Forest& forest, const OpticsTable& optics, const LightMap& ma
       near_trees(request.camera, instance_boxes(outline_of(forest)), forest.period.has_value());
   const Shader shader(parts, find_mean_light(parts, grey_parts, near));
   const int samples = samples_per_unit(request);
+  if (const auto raster = chosen_raster(stage.scene, request, stage.light)) {
+    const HitLayers layers = [&](const RayHit& hit, std::size_t pixel, Image& image) {
+      write_layers(stage, hit, pixel, image, &map.bands.front(), index);
+    };
+    Image image = rasterise(*raster, parts, shader, request.camera, stage.light,
+                            plan_passes(request.camera, request.effort, samples), layers, control, tiles);
+    image.visibility = Visibility::kRaster;
+    count_details(stage.scene, image);
+    return image;
+  }
   const UnitSampler sample = unit_sampler(
       stage, request, samples, [&](const CameraRay& ray, PathSamples& numbers, std::uint8_t cast) {
         return shader.radiance(stage.scene.closest_hit(ray.origin_m, ray.direction, {.cast = cast}),

@@ -40,6 +40,15 @@ struct Camera {
 // Throws Error(kInvalidInput) naming "camera.<field>".
 void validate(const Camera& camera);
 
+// How a picture from a light map finds what its samples see, and which of them see the sun. Path-traced
+// pictures have rays always.
+enum class Visibility {
+  kAuto,   // what costs less
+  kRays,   // one by one
+  kRaster  // all figures drawn once for many samples (raster_image.h); not for fisheye cameras, nor towards
+           // the horizon of a forest that repeats
+};
+
 // Channels are top row first, row-major; all float.
 struct Image {
   int width_px = 0, height_px = 0;
@@ -52,6 +61,7 @@ struct Image {
   std::vector<float> irradiance_w_m2;  // 1 per pixel: front + back irradiance of the element seen in band 0;
                                        // 0 elsewhere, and everywhere in path-traced pictures
   int samples_per_pixel = 0;           // taken, of the pixel with fewest
+  Visibility visibility = Visibility::kRays;  // that was used: rays or raster
   bool stopped = false;                // before it was done, see RenderEffort
   std::array<std::size_t, kDetails> trees_at{};  // trees shown at each Detail, among the first of the casts
 };
@@ -82,6 +92,7 @@ struct RenderRequest {
   RenderEffort effort{};
   LeafSun leaf_sun = LeafSun::kTraced;
   PictureDetail detail{};  // of far trees
+  Visibility visibility = Visibility::kAuto;
 };
 // Throws Error(kInvalidInput) naming "render.<field>" or "camera.<field>".
 void validate(const RenderRequest& request);

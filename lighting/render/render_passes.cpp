@@ -15,19 +15,6 @@ namespace {
 constexpr int kTilePx = 64;
 constexpr int kFirstUnits = 4;  // before the noise is looked at
 
-struct Tile {
-  int x0, y0, x1, y1;
-};
-
-std::vector<Tile> tiles_of(const Camera& camera) {
-  std::vector<Tile> tiles;
-  for (int y = 0; y < camera.height_px; y += kTilePx)
-    for (int x = 0; x < camera.width_px; x += kTilePx)
-      tiles.push_back(
-          {x, y, std::min(x + kTilePx, camera.width_px), std::min(y + kTilePx, camera.height_px)});
-  return tiles;
-}
-
 Image empty_image(const Camera& camera) {
   const std::size_t pixels =
       static_cast<std::size_t>(camera.width_px) * static_cast<std::size_t>(camera.height_px);
@@ -50,30 +37,27 @@ void develop(const Film& film, std::size_t pixel, Image& image) {
   image.rgb_standard_error[pixel] = static_cast<float>(film.standard_error(pixel));
 }
 
-struct Round {
-  std::uint32_t from, to;  // units
-};
-
-class Passes {
+class Rounds {
  public:
-  Passes(const Camera& camera, const UnitSampler& sample, const LayerFill& layers, const TileSink& tiles)
-      : sample_(sample),
-        layers_(layers),
-        sink_(tiles),
-        tiles_(tiles_of(camera)),
-        image(empty_image(camera)),
-        film(image.depth_m.size()) {}
+  Rounds(const Camera& camera, const RoundSampler& sample, const TileSink& tiles)
+      : image(empty_image(camera)), film(image.depth_m.size()), sample_(sample), sink_(tiles) {}
 
-  void run(const Round& round, const RunControl& control) {
-    std::mutex telling;
-    for_each_chunk(tiles_.size(), 1, control, "rendering", [&](std::size_t t, std::size_t) {
-      const Tile& tile = tiles_[t];
+  void run(std::uint32_t first_unit, std::uint32_t end_unit) {
+    sample_(first_unit, end_unit, image, film, [&](const PixelRect& tile) {
       for (int y = tile.y0; y < tile.y1; ++y)
-        for (int x = tile.x0; x < tile.x1; ++x) add_units(x, y, round, control);
+        for (int x = tile.x0; x < tile.x1; ++x)
+          develop(film, static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width_px) +
+                            static_cast<std::size_t>(x),
+                  image);
       if (!sink_) return;
-      const std::lock_guard lock(telling);
+      const std::lock_guard lock(telling_);
       sink_(image, tile.x0, tile.y0, tile.x1, tile.y1);
     });
+  }
+
+  // Pixels of a round that was stopped keep the samples they got.
+  void develop_all() {
+    for (std::size_t p = 0; p < image.depth_m.size(); ++p) develop(film, p, image);
   }
 
   std::uint32_t fewest_units() const {
@@ -82,26 +66,13 @@ class Passes {
     return fewest;
   }
 
- private:
-  void add_units(int x, int y, const Round& round, const RunControl& control) {
-    const std::size_t pixel =
-        static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width_px) + static_cast<std::size_t>(x);
-    if (round.from == 0) layers_(x, y, pixel, image);
-    for (std::uint32_t unit = round.from; unit < round.to; ++unit) {
-      control.check();
-      film.add(pixel, sample_(x, y, pixel, unit));
-    }
-    develop(film, pixel, image);
-  }
-
-  const UnitSampler& sample_;
-  const LayerFill& layers_;
-  const TileSink& sink_;
-  std::vector<Tile> tiles_;
-
- public:
   Image image;
   Film film;
+
+ private:
+  const RoundSampler& sample_;
+  const TileSink& sink_;
+  std::mutex telling_;
 };
 
 // How many units the next round ends with: as many as the noise so far says, at most four times as many.
@@ -111,19 +82,19 @@ std::uint32_t next_total(std::uint32_t done, std::uint32_t most, double noise, d
   return static_cast<std::uint32_t>(std::min(total, static_cast<double>(most)));
 }
 
-void run_rounds(Passes& passes, const PassPlan& plan, const RunControl& control) {
+void run_all(Rounds& rounds, const PassPlan& plan) {
   const auto most = static_cast<std::uint32_t>(plan.units);
   const bool watched = plan.effort.noise > 0.0 || plan.effort.keep_when_stopped;
   std::uint32_t done = 0, next = watched ? std::min<std::uint32_t>(kFirstUnits, most) : most;
   while (next > done) {
-    passes.run({done, next}, control);
+    rounds.run(done, next);
     done = next;
     if (done == most) return;
     if (plan.effort.noise <= 0.0) {
       next = std::min(most, 2 * done);
       continue;
     }
-    const double noise = image_noise(passes.image);
+    const double noise = image_noise(rounds.image);
     if (noise <= plan.effort.noise) return;
     next = next_total(done, most, noise, plan.effort.noise);
   }
@@ -136,18 +107,49 @@ PassPlan plan_passes(const Camera& camera, const RenderEffort& effort, int sampl
   return {samples_per_unit, (samples + samples_per_unit - 1) / samples_per_unit, effort};
 }
 
-Image run_passes(const Camera& camera, const PassPlan& plan, const UnitSampler& sample,
-                 const LayerFill& layers, const RunControl& control, const TileSink& tiles) {
-  Passes passes(camera, sample, layers, tiles);
+Image run_rounds(const Camera& camera, const PassPlan& plan, const RoundSampler& sample, const TileSink& tiles) {
+  Rounds rounds(camera, sample, tiles);
   try {
-    run_rounds(passes, plan, control);
+    run_all(rounds, plan);
   } catch (const Error& error) {
-    if (error.kind() != ErrorKind::kCancelled || !plan.effort.keep_when_stopped || passes.fewest_units() == 0)
+    if (error.kind() != ErrorKind::kCancelled || !plan.effort.keep_when_stopped || rounds.fewest_units() == 0)
       throw;
-    passes.image.stopped = true;
+    rounds.develop_all();
+    rounds.image.stopped = true;
   }
-  passes.image.samples_per_pixel = static_cast<int>(passes.fewest_units()) * plan.samples_per_unit;
-  return std::move(passes.image);
+  rounds.image.samples_per_pixel = static_cast<int>(rounds.fewest_units()) * plan.samples_per_unit;
+  return std::move(rounds.image);
+}
+
+std::vector<PixelRect> picture_tiles(int width_px, int height_px) {
+  std::vector<PixelRect> tiles;
+  for (int y = 0; y < height_px; y += kTilePx)
+    for (int x = 0; x < width_px; x += kTilePx)
+      tiles.push_back({x, y, std::min(x + kTilePx, width_px), std::min(y + kTilePx, height_px)});
+  return tiles;
+}
+
+Image run_passes(const Camera& camera, const PassPlan& plan, const UnitSampler& sample,
+                 const LayerFill& layers, const RunControl& control, const TileSink& sink) {
+  const std::vector<PixelRect> tiles = picture_tiles(camera.width_px, camera.height_px);
+  const RoundSampler round = [&](std::uint32_t first_unit, std::uint32_t end_unit, Image& image, Film& film,
+                                 const TileDone& tile_done) {
+    const auto add_units = [&](int x, int y) {
+      const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width_px) +
+                                static_cast<std::size_t>(x);
+      if (first_unit == 0) layers(x, y, pixel, image);
+      for (std::uint32_t unit = first_unit; unit < end_unit; ++unit) {
+        control.check();
+        film.add(pixel, sample(x, y, pixel, unit));
+      }
+    };
+    for_each_chunk(tiles.size(), 1, control, "rendering", [&](std::size_t t, std::size_t) {
+      for (int y = tiles[t].y0; y < tiles[t].y1; ++y)
+        for (int x = tiles[t].x0; x < tiles[t].x1; ++x) add_units(x, y);
+      tile_done(tiles[t]);
+    });
+  };
+  return run_rounds(camera, plan, round, sink);
 }
 
 double image_noise(const Image& image) {

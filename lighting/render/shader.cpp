@@ -32,28 +32,53 @@ Vec3 Shader::total(const FaceLight& face) const {
 Vec3 Shader::leaf_seen(const RayHit& hit, const Vec3& to_viewer, PathSamples& numbers) const {
   const Surface s = parts_.surfaces.at(hit);
   const auto sun_at = numbers.next();
-  if (parts_.leaf_sun == LeafSun::kTraced)
-    return leaf_lit(hit, [&](const FaceLight& face) { return diffuse(face); }) +
-           sun_scattered(hit, s, to_viewer, {sun_at[0], sun_at[1]});
-  if (s.gloss == 0.0 || s.is_shoot) return leaf_stored(hit);
-  // Stored sunlight with its gloss: as if it came from the middle of the disc.
+  if (parts_.leaf_sun == LeafSun::kStored) return leaf_sunlit_as_stored(hit, s, to_viewer);
+  return leaf_lit(hit, s, [&](const FaceLight& face) { return diffuse(face); }) +
+         sun_scattered(hit, s, to_viewer, {sun_at[0], sun_at[1]});
+}
+
+// Its gloss as if all of it came from the middle of the disc.
+Vec3 Shader::leaf_sunlit_as_stored(const RayHit& hit, const Surface& s, const Vec3& to_viewer) const {
+  if (s.gloss == 0.0 || s.is_shoot)
+    return leaf_lit(hit, s, [&](const FaceLight& face) { return total(face); });
   const ElementLight& light = light_of(hit);
   const FaceLight &this_side = hit.front ? light.front : light.back,
                   &other = hit.front ? light.back : light.front;
   const Vec3 to_sun = parts_.light.towards_sun({0.0, 0.0});
   const Vec3 sun = scattering(s, to_sun, to_viewer) * static_cast<double>(this_side.direct_w_m2) +
                    s.pass / kPi * static_cast<double>(other.direct_w_m2);
-  return leaf_lit(hit, [&](const FaceLight& face) { return diffuse(face); }) + sun * parts_.colour.sun_tint;
+  return leaf_lit(hit, s, [&](const FaceLight& face) { return diffuse(face); }) +
+         sun * parts_.colour.sun_tint;
+}
+
+Shader::SunAndRest Shader::leaf_parts(const RayHit& hit, const Vec3& to_viewer, double footprint_m) const {
+  const Surface s = parts_.surfaces.at(hit, footprint_m);
+  if (parts_.leaf_sun == LeafSun::kStored) return {leaf_sunlit_as_stored(hit, s, to_viewer), Vec3(0.0)};
+  SunAndRest parts{leaf_lit(hit, s, [&](const FaceLight& face) { return diffuse(face); }), Vec3(0.0)};
+  if (!parts_.light.has_beam()) return parts;
+  const Vec3 to_sun = parts_.light.towards_sun({0.0, 0.0});
+  parts.sun = scattering(s, to_sun, to_viewer) * cosine_factor(s, to_sun);
+  if (s.is_shoot) {
+    RayHit other_face = hit;
+    other_face.front = !hit.front;
+    parts.sun = 0.5 * (parts.sun + scattering(parts_.surfaces.at(other_face), to_sun, to_viewer));
+  }
+  parts.sun *= parts_.light.beam_w_m2();
+  return parts;
+}
+
+Vec3 Shader::open_sun(const Vec3& normal) const {
+  if (!parts_.light.has_beam()) return Vec3(0.0);
+  return std::max(0.0, glm::dot(normal, parts_.light.towards_sun({0.0, 0.0}))) * parts_.light.beam_w_m2();
 }
 
 Vec3 Shader::leaf_stored(const RayHit& hit) const {
-  return leaf_lit(hit, [&](const FaceLight& face) { return total(face); });
+  return leaf_lit(hit, parts_.surfaces.at(hit), [&](const FaceLight& face) { return total(face); });
 }
 
 // Radiance of a leaf by what `light` takes of each face's light; of a shoot the mean of its faces.
 template <class Light>
-Vec3 Shader::leaf_lit(const RayHit& hit, const Light& light) const {
-  const Surface s = parts_.surfaces.at(hit);
+Vec3 Shader::leaf_lit(const RayHit& hit, const Surface& s, const Light& light) const {
   const ElementLight& stored = light_of(hit);
   const Vec3 mine = light(hit.front ? stored.front : stored.back);
   const Vec3 others = light(hit.front ? stored.back : stored.front);

@@ -46,18 +46,30 @@ class Shader {
   Vec3 irradiance(const RayHit& hit, PathSamples& numbers) const;
   std::size_t element_of(const RayHit& hit) const;
 
+  // Radiance towards the viewer in two parts: without traced sunlight, and what the sun adds where nothing
+  // lies between (taken from the middle of its disc). A shoot's is the mean over its two faces. With stored
+  // sunlight the second part is 0. `footprint_m` as for SurfaceTable::at.
+  struct SunAndRest {
+    Vec3 rest{0}, sun{0};
+  };
+  SunAndRest leaf_parts(const RayHit& hit, const Vec3& to_viewer, double footprint_m) const;
+  // Irradiance of a plane with this normal by the middle of the sun's disc; 0 from behind.
+  Vec3 open_sun(const Vec3& normal) const;
+  // Sky and scattered light of a face.
+  Vec3 diffuse(const FaceLight& light) const;
+  const ElementLight& light_of(const RayHit& hit) const;
+
  private:
   Vec3 leaf_seen(const RayHit& hit, const Vec3& to_viewer, PathSamples& numbers) const;
   Vec3 leaf_stored(const RayHit& hit) const;
+  Vec3 leaf_sunlit_as_stored(const RayHit& hit, const Surface& s, const Vec3& to_viewer) const;
   template <class Light>
-  Vec3 leaf_lit(const RayHit& hit, const Light& light) const;
+  Vec3 leaf_lit(const RayHit& hit, const Surface& s, const Light& light) const;
   Vec3 sun_scattered(const RayHit& hit, const Surface& surface, const Vec3& to_viewer,
                      const Vec2& number) const;
   Vec3 beyond_reach(const Vec3& origin_m, const Vec3& direction) const;
   Vec3 off_ground(const RayHit& hit) const;
-  Vec3 diffuse(const FaceLight& light) const;
   Vec3 total(const FaceLight& light) const;
-  const ElementLight& light_of(const RayHit& hit) const;
 
   ShadingParts parts_;
   MeanLight mean_;

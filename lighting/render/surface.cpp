@@ -36,31 +36,53 @@ double cosine_factor(const Surface& s, const Vec3& direction) {
 
 SurfaceTable::SurfaceTable(const PictureScene& scene, const OpticsTable& optics, std::size_t band,
                            const PictureColour& colour, const PictureLook& look)
-    : scene_(scene), optics_(optics), band_(band), colour_(colour), look_(look) {}
-
-Surface SurfaceTable::at(const RayHit& hit) const {
-  if (hit.kind == HitKind::kFoliage) return leaf(hit);
-  return hit.kind == HitKind::kGround ? ground(hit) : wood(hit);
+    : scene_(scene), look_(look) {
+  const auto colours_of = [&](const MaterialOptics& m) {
+    const Vec3 front = channel_factor(m.leaf.albedo_front(), colour.leaf_exponent);
+    const Vec3 back = channel_factor(m.leaf.albedo_back(), colour.leaf_exponent);
+    return Colours{m.leaf.reflectance_front * front, m.leaf.reflectance_back * back,
+                   m.leaf.transmittance_front * front, m.leaf.transmittance_back * back,
+                   m.bark_reflectance * channel_factor(m.bark_reflectance, colour.bark_exponent)};
+  };
+  for (std::uint32_t p = 0; p < scene.original_forest().prototypes.size(); ++p) {
+    auto& row = colours_.emplace_back();
+    for (std::uint32_t m = 0; m < scene.original_forest().prototypes[p].materials.size(); ++m)
+      row.push_back(colours_of(optics.material(band, PrototypeId{p}, m)));
+  }
+  const double albedo = optics.soil_albedo(band);
+  // Grass shows soil and dry blades between the green ones.
+  const bool grass = look.ground == GroundCover::kGrass;
+  soil_ = albedo * channel_factor(albedo, grass ? 0.5 * (colour.leaf_exponent + colour.soil_exponent)
+                                                : colour.soil_exponent);
 }
 
-Surface SurfaceTable::leaf(const RayHit& hit) const {
+Surface SurfaceTable::at(const RayHit& hit, double footprint_m) const {
+  if (hit.kind == HitKind::kFoliage) return leaf(hit, footprint_m);
+  return hit.kind == HitKind::kGround ? ground(hit, footprint_m) : wood(hit, footprint_m);
+}
+
+Surface SurfaceTable::leaf(const RayHit& hit, double footprint_m) const {
   const PrototypeId id = scene_.original_prototype(hit.instance);
   const FoliageElement& e = scene_.shown_prototype(hit).foliage[hit.local];
-  const LeafOptics& leaf = optics_.material(band_, id, e.material).leaf;
-  const Vec3 front = channel_factor(leaf.albedo_front(), colour_.leaf_exponent);
-  const Vec3 back = channel_factor(leaf.albedo_back(), colour_.leaf_exponent);
+  const Colours& colours = colours_[id.value][e.material];
   Surface s;
   s.normal = s.gloss_normal = hit.normal;
   s.is_shoot = e.shape == ElementShape::kShoot && hit.needle == RayHit::kNoNeedle;
-  s.reflect = hit.front ? leaf.reflectance_front * front : leaf.reflectance_back * back;
-  s.pass = hit.front ? leaf.transmittance_back * back : leaf.transmittance_front * front;
+  s.reflect = hit.front ? colours.reflect_front : colours.reflect_back;
+  s.pass = hit.front ? colours.pass_back : colours.pass_front;
   if (scene_.has_outline(hit)) {
     const MaterialLook& look = scene_.look_of(id, e.material);
-    const Vec2 at = scene_.leaf_place(hit);
-    s.reflect *= look.leaf_reflect(at);
-    s.pass *= look.leaf_pass(at);
-    keep_energy(s);
-    if (hit.front && look.has_normals()) {
+    const double length_m =
+        2.0 * scene_.forest().instances[hit.instance].scale * static_cast<double>(glm::length(e.half_u_m));
+    const double left = footprint_m > 0.0 ? look.leaf_pattern_left(footprint_m / length_m) : 1.0;
+    const bool bumps = hit.front && look.has_normals();
+    const Vec2 at = left > 0.0 || bumps ? scene_.leaf_place(hit) : Vec2(0.0);
+    if (left > 0.0) {
+      s.reflect *= 1.0 + left * (look.leaf_reflect(at) - 1.0);
+      s.pass *= 1.0 + left * (look.leaf_pass(at) - 1.0);
+      keep_energy(s);
+    }
+    if (bumps) {
       const Basis axes = scene_.leaf_axes(hit);
       const Vec3 n = look.leaf_normal(at);
       s.gloss_normal = glm::normalize(n.x * axes.tangent + n.y * axes.bitangent + n.z * hit.normal);
@@ -71,29 +93,24 @@ Surface SurfaceTable::leaf(const RayHit& hit) const {
   return s;
 }
 
-Surface SurfaceTable::wood(const RayHit& hit) const {
+Surface SurfaceTable::wood(const RayHit& hit, double footprint_m) const {
   const PrototypeId id = scene_.original_prototype(hit.instance);
   const Prototype& prototype = scene_.shown_prototype(hit);
   const std::uint32_t material = hit.kind == HitKind::kWood ? prototype.wood[hit.local].material
                                                             : prototype.wood_mesh[hit.local].material;
-  const double albedo = optics_.material(band_, id, material).bark_reflectance;
   Surface s;
   s.normal = hit.normal;
-  s.reflect = albedo * channel_factor(albedo, colour_.bark_exponent) *
-              scene_.look_of(id, material).bark(scene_.bark_place(hit));
+  s.reflect = colours_[id.value][material].bark *
+              scene_.look_of(id, material).bark(scene_.bark_place(hit), footprint_m);
   keep_energy(s);
   return s;
 }
 
-Surface SurfaceTable::ground(const RayHit& hit) const {
-  const double albedo = optics_.soil_albedo(band_);
+Surface SurfaceTable::ground(const RayHit& hit, double footprint_m) const {
   Surface s;
   s.normal = hit.normal;
-  const bool grass = look_.ground == GroundCover::kGrass;
-  // Grass shows soil and dry blades between the green ones.
-  const Vec3 exponent = grass ? 0.5 * (colour_.leaf_exponent + colour_.soil_exponent) : colour_.soil_exponent;
-  s.reflect = albedo * channel_factor(albedo, exponent);
-  if (look_.patterns) s.reflect *= litter_pattern({hit.position_m.x, hit.position_m.y});
+  s.reflect = soil_;
+  if (look_.patterns) s.reflect *= litter_pattern({hit.position_m.x, hit.position_m.y}, footprint_m);
   keep_energy(s);
   return s;
 }

@@ -34,18 +34,22 @@ class SurfaceTable {
   SurfaceTable(const PictureScene& scene, const OpticsTable& optics, std::size_t band,
                const PictureColour& colour, const PictureLook& look);
   // For hits on leaves, wood and the upper side of the ground.
-  Surface at(const RayHit& hit) const;
+  // `footprint_m`: width of what is seen as one there; finer patterns come as their mean.
+  Surface at(const RayHit& hit, double footprint_m = 0.0) const;
 
  private:
-  Surface leaf(const RayHit& hit) const;
-  Surface wood(const RayHit& hit) const;
-  Surface ground(const RayHit& hit) const;
+  // Of a material in the channels, without patterns.
+  struct Colours {
+    Vec3 reflect_front, reflect_back, pass_front, pass_back, bark;
+  };
+  Surface leaf(const RayHit& hit, double footprint_m) const;
+  Surface wood(const RayHit& hit, double footprint_m) const;
+  Surface ground(const RayHit& hit, double footprint_m) const;
 
   const PictureScene& scene_;
-  const OpticsTable& optics_;
-  std::size_t band_;
-  PictureColour colour_;
   const PictureLook& look_;
+  std::vector<std::vector<Colours>> colours_;  // per original prototype and material
+  Vec3 soil_;
 };
 
 }  // namespace sunfleck
