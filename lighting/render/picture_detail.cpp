@@ -30,7 +30,15 @@ struct Plant {
   Detail coarsest = Detail::kExplicit;
 };
 
+bool is_of_shoots(const Prototype& prototype) {
+  double shoots_m2 = 0.0;
+  for (const FoliageElement& e : prototype.foliage)
+    if (e.shape == ElementShape::kShoot) shoots_m2 += e.area_m2;
+  return shoots_m2 > 0.5 * leaf_area_m2(prototype);
+}
+
 Detail coarsest_of(const Prototype& prototype) {
+  if (is_of_shoots(prototype)) return Detail::kExplicit;
   Detail coarsest = Detail::kExplicit;
   for (std::size_t k = 0; k < kForcible.size(); ++k)
     if (static_cast<double>(prototype.foliage.size()) * kPruneLevels[k + 1] >= kFewestLeaves)

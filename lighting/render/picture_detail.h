@@ -15,6 +15,10 @@
 // A level is taken only where it leaves kFewestLeaves: with fewer the enlarged leaves are no longer small
 // against the crown and blur its outline, whatever the pixels.
 //
+// Trees of shoots keep them: a shoot is already one volume for hundreds of needles, and fewer, larger volumes
+// overlap more (measured: pine 0.9 to 1.0, spruce 1.1 to 1.2 times faster, bias up to .016). Boughs are their
+// far level.
+//
 // Where a forest repeats, the nearest of a tree's copies counts for all of them. A camera that looks along a
 // mirror or through glass does not exist here. Light maps are computed from all leaves; pictures of them show
 // fewer leaves with the light stored for just these.

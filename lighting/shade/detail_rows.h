@@ -10,7 +10,7 @@
 
 namespace sunfleck {
 
-// Errors are those of the worst species and light measured, over the pixels that the tree touches, noise
+// For flat leaves. Errors are those of the worst tree measured, over the pixels that the tree touches, noise
 // taken out, with kDetailCasts prunings per tree; costs a mean over species, CPU of one thread.
 std::vector<MeasuredDetail> measured_detail();
 

@@ -22,9 +22,10 @@ namespace {
 
 // All trees as rays of one cast meet them.
 struct PlacedTrees {
-  std::vector<SceneCopy> copies;  // none where there is a table
-  bool flat = false;              // every copy is written out
-  InstanceTable table;            // of very many trees that do not repeat
+  std::vector<SceneCopy> copies;       // none where there is a table
+  bool flat = false;                   // every copy is written out
+  std::vector<PrototypeScene> placed;  // then the figures of each
+  InstanceTable table;                 // of very many trees that do not repeat
   SceneHandle top;
 
   SceneCopy copy_met(const RTCHit& hit) const {
@@ -39,7 +40,7 @@ struct RayScene::State {
   Device device;
   Vec3 centre_m{0};
   Surroundings around;
-  std::vector<PrototypeScene> figures;  // of each prototype, or of each copy
+  std::vector<PrototypeScene> figures;  // of each prototype; none where all are flat
   std::vector<PlacedTrees> casts;       // at least one; a table stays where it is
   std::size_t wrapped_copies = 0;
   bool has_shoots = false;
@@ -47,8 +48,7 @@ struct RayScene::State {
   State(const Forest& forest, const Options& options, const RunControl& control);
   void build(const Forest& forest, const Options& options, const RunControl& control);
   void build_prototypes(const Forest& forest, const Options& options, const RunControl& control);
-  void place(const Forest& forest, const std::vector<PrototypeId>& prototypes, PlacedTrees& trees,
-             const RunControl& control);
+  void place(const Forest& forest, const Options& options, PlacedTrees& trees, const RunControl& control);
   void place_in_table(const Forest& forest, const std::vector<PrototypeId>& prototypes, PlacedTrees& trees,
                       const RunControl& control);
   // In the scene's coordinates. A ray from the ground starts a hair below it, so that it meets what lies
@@ -80,8 +80,9 @@ bool is_flat_better(std::size_t figures, std::size_t copies, std::size_t instanc
   constexpr double kFewestRaysPerFigure = 16.0;
   if (copies == 1 && instances == 1) return true;
   if (options.shoots == ShootForm::kNeedles) return false;
+  const double expected_rays = options.casts.empty() ? options.expected_rays : 0.0;
   return figures <= kMostFigures && copies <= kMostCopies &&
-         options.expected_rays >= kFewestRaysPerFigure * static_cast<double>(figures);
+         expected_rays >= kFewestRaysPerFigure * static_cast<double>(figures);
 }
 
 std::uint64_t key_of(const Vec3& origin, const Vec3& direction) {
@@ -203,6 +204,8 @@ RayScene::State::State(const Forest& forest, const Options& options, const RunCo
   around = surroundings_of(forest, options, centre_m);
   build(forest, options, control);
   for (const PrototypeScene& f : figures) has_shoots = has_shoots || !f.shoots.empty();
+  for (const PlacedTrees& trees : casts)
+    for (const PrototypeScene& f : trees.placed) has_shoots = has_shoots || !f.shoots.empty();
 }
 
 void RayScene::State::build_prototypes(const Forest& forest, const Options& options,
@@ -212,10 +215,12 @@ void RayScene::State::build_prototypes(const Forest& forest, const Options& opti
     build_prototype_scene(device, forest.prototypes[i], options, figures[i], control);
 }
 
-void RayScene::State::place(const Forest& forest, const std::vector<PrototypeId>& prototypes,
-                            PlacedTrees& trees, const RunControl& control) {
-  trees.copies = copies_of(forest, prototypes, around, centre_m);
-  trees.top = build_top_scene(device, forest, trees.copies, figures, around, centre_m, control);
+// Copies are set; the figures of all prototypes are built unless the copies are written out.
+void RayScene::State::place(const Forest& forest, const Options& options, PlacedTrees& trees,
+                            const RunControl& control) {
+  trees.top = trees.flat ? build_flat_scene(device, forest, trees.copies, trees.placed, around, centre_m,
+                                            options, control)
+                         : build_top_scene(device, forest, trees.copies, figures, around, centre_m, control);
 }
 
 void RayScene::State::place_in_table(const Forest& forest, const std::vector<PrototypeId>& prototypes,
@@ -225,26 +230,26 @@ void RayScene::State::place_in_table(const Forest& forest, const std::vector<Pro
 }
 
 void RayScene::State::build(const Forest& forest, const Options& options, const RunControl& control) {
-  const bool in_table = !around.periodic && forest.instances.size() >= options.table_from;
   casts.resize(std::max<std::size_t>(1, options.casts.size()));
-  PlacedTrees& first = casts[0];
-  if (options.casts.empty() && !in_table) {
-    first.copies = copies_of(forest, own_prototypes(forest), around, centre_m);
-    first.flat = is_flat_better(figures_of(forest, first.copies), first.copies.size(),
-                                forest.instances.size(), options);
-  }
-  if (first.flat) {
-    first.top = build_flat_scene(device, forest, first.copies, figures, around, centre_m, options, control);
-  } else {
+  if (!around.periodic && forest.instances.size() >= options.table_from) {
     build_prototypes(forest, options, control);
-    const std::vector<PrototypeId> own = in_table ? std::vector<PrototypeId>{} : own_prototypes(forest);
-    for (std::size_t c = 0; c < casts.size(); ++c) {
-      const std::vector<PrototypeId>& prototypes = options.casts.empty() ? own : options.casts[c];
-      in_table ? place_in_table(forest, prototypes, casts[c], control)
-               : place(forest, prototypes, casts[c], control);
-    }
+    for (std::size_t c = 0; c < casts.size(); ++c)
+      place_in_table(forest, options.casts.empty() ? std::vector<PrototypeId>{} : options.casts[c], casts[c],
+                     control);
+    return;
   }
-  for (const SceneCopy& copy : first.copies) wrapped_copies += copy.shift == Cell{} ? 0 : 1;
+  bool all_flat = true;
+  for (std::size_t c = 0; c < casts.size(); ++c) {
+    PlacedTrees& trees = casts[c];
+    trees.copies = copies_of(forest, options.casts.empty() ? own_prototypes(forest) : options.casts[c],
+                             around, centre_m);
+    trees.flat = is_flat_better(figures_of(forest, trees.copies), trees.copies.size(),
+                                forest.instances.size(), options);
+    all_flat = all_flat && trees.flat;
+  }
+  if (!all_flat) build_prototypes(forest, options, control);
+  for (PlacedTrees& trees : casts) place(forest, options, trees, control);
+  for (const SceneCopy& copy : casts[0].copies) wrapped_copies += copy.shift == Cell{} ? 0 : 1;
 }
 
 RayScene::RayScene(const Forest& forest, const Options& options, const RunControl& control)

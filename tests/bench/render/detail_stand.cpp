@@ -60,7 +60,7 @@ void compare(const Forest& forest, const OpticsTable& optics, double tree_px, in
   const double tree_m = prototype_bounds(forest.prototypes[0]).size().z;
   RenderRequest request{test::detail_view(forest, tree_m / tree_px, samples), test::detail_light()};
   Camera sharp = request.camera;
-  sharp.samples_per_pixel = 8 * samples;
+  sharp.samples_per_pixel = 4 * samples;
   const test::PicturePair truth = test::path_traced_pair(forest, optics, sharp, {});
   const Costs all = costs_of(forest, optics, map, request);
   std::printf(
@@ -88,11 +88,12 @@ int main(int argc, char** argv) {
   using namespace sunfleck;
   const int side = argc > 1 ? std::atoi(argv[1]) : 16, samples = argc > 2 ? std::atoi(argv[2]) : 4;
   std::vector<std::string> trees(argv + std::min(argc, 3), argv + argc);
-  if (trees.empty()) trees = {"sphere_100k", "Fagus sylvatica", "Picea abies"};
+  if (trees.empty()) trees = {"sphere_100k", "Fagus sylvatica"};
   const Forest forest = test::detail_stand(trees, side);
   for (const Prototype& p : forest.prototypes)
     std::printf("%s: %zu leaves or shoots of %.3f m, %zu wood segments\n", p.name.c_str(), p.foliage.size(),
                 leaf_side_m(p.foliage), p.wood.size());
+  std::fflush(stdout);
   const OpticsTable optics = test::detail_optics(forest, "NIR");
   with_threads(1, [&] {
     for (const double tree_px : {16.0, 8.0}) compare(forest, optics, tree_px, samples);

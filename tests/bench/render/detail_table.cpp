@@ -67,7 +67,7 @@ int main(int argc, char** argv) {
   const std::string band = argc > 2 ? argv[2] : "NIR";
   const double only = argc > 3 ? std::atof(argv[3]) : 0;
   std::vector<std::string> trees(argv + std::min(argc, 4), argv + argc);
-  if (trees.empty()) trees = {"Fagus sylvatica", "Betula pendula", "Picea abies", "sphere_100k"};
+  if (trees.empty()) trees = {"Fagus sylvatica", "Betula pendula", "sphere_100k"};
   Rows rows;
   for (const std::string& tree : trees)
     for (const double footprint : {2.5, 5.0, 10.0, 20.0, 40.0})

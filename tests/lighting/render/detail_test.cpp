@@ -344,6 +344,23 @@ TEST(Detail, ThePeriodBringsTreesNear) {
   EXPECT_EQ(image.trees_at[1], 1u);
 }
 
+// A level needs enough leaves, and leaves that are flat.
+TEST(Detail, FewLeavesAndShootsStayAsTheyAre) {
+  test::RenderScene scene = ball_tree();
+  const auto level = [&] {
+    const TreeDetails d = choose_details(scene.forest, far_view(40, 1), scene.light, kAuto, {});
+    return d.casts.empty() ? Detail::kExplicit : d.casts[0][0];
+  };
+  EXPECT_EQ(level(), Detail::kPruned64);
+  scene.leaves().resize(20000);
+  EXPECT_EQ(level(), Detail::kPruned16);
+  scene.leaves().resize(1000);
+  EXPECT_EQ(level(), Detail::kExplicit);
+  scene = ball_tree();
+  for (FoliageElement& e : scene.leaves()) e.shape = ElementShape::kShoot;
+  EXPECT_EQ(level(), Detail::kExplicit);
+}
+
 TEST(Detail, RefusesNonsense) {
   const test::RenderScene scene = ball_tree();
   for (const double tolerance : {0.0, -0.1, 1.5, std::nan(""), std::numeric_limits<double>::infinity()}) {
