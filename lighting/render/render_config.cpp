@@ -68,9 +68,10 @@ RenderSettings read_render_settings(const ConfigTable& table) {
   s.look.gloss_exponent = table.number_or("gloss_exponent", 20.0, {1.0, 1000.0});
   s.look.bark_width_m = table.number_or("bark_width_m", 0.5, {1e-3, 100.0});
   for (const ConfigTable& t : table.tables("textures")) s.look.textures.push_back(read_textures(t));
-  s.look.shoots = table.choice_or("needles", "volume", {"volume", "explicit"}) == "explicit"
-                      ? ShootForm::kNeedles
-                      : ShootForm::kVolume;
+  const std::string needles = table.choice_or("needles", "volume", {"volume", "explicit", "bough"});
+  s.look.shoots = needles == "explicit" ? ShootForm::kNeedles
+                  : needles == "bough"  ? ShootForm::kBough
+                                        : ShootForm::kVolume;
   s.tone.curve = table.choice_or("tone", "linear", {"linear", "filmic"}) == "filmic" ? ToneCurve::kFilmic
                                                                                      : ToneCurve::kLinear;
   s.tone.exposure_stops = table.number_or("exposure_stops", 0.0, {-20.0, 20.0});

@@ -2,7 +2,8 @@
 //
 // Needles lean at one angle round the shoot's axis and begin at equal steps along it: whorls of one needle.
 // They begin a little off the axis (at 8 % of the radius), which the volume does not know: its needles begin
-// on the axis and are so much longer, and thinner sown, that needle area and outer radius stay. Needles
+// on the axis and are so much longer, and thinner sown, that needle area and rim stay. As in bough.h the
+// volume is a needle's radius wider than the rim, and so much (4 % in spruce) more of it. Needles
 // combed into a plane (fir) or standing in tufts (larch) become round brushes of the same area.
 #pragma once
 

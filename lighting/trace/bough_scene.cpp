@@ -47,7 +47,7 @@ float top_of(const QuickBough& b) { return b.highest + b.outer_radius * b.cosine
 
 // What a ray met: kept unsorted while Embree finds them.
 struct Crossing {
-  float enter, depth, z;  // z: of its middle, along the bough
+  float enter, leave, depth, z;  // z: of its middle, along the bough
   std::uint32_t instance, bough;
 };
 
@@ -57,7 +57,7 @@ struct BoughContext {
   const Placed* placed = nullptr;
   bool keep = false;  // crossings; else depth only
   float depth = 0;
-  float enough = 7.0f;  // e^-7 = 1 in 1000
+  float enough = 6.5f;  // 1.5 in 1000 come through
   unsigned passed_instance = RTC_INVALID_GEOMETRY_ID, passed_bough = RTC_INVALID_GEOMETRY_ID;
   std::size_t count = 0;
   std::array<Crossing, 96> crossings;
@@ -74,28 +74,41 @@ void bough_bounds(const RTCBoundsFunctionArguments* args) {
   to.upper_x = high.x, to.upper_y = high.y, to.upper_z = high.z;
 }
 
-// Never a hit: what is met is added up.
-void bough_met(const RTCOccludedFunctionNArguments* args) {
+// Adds up what the bough does to the ray: never a hit. True where enough has been met.
+bool add_bough(const BoughTree& tree, unsigned primitive, const RTCRay& ray, BoughContext& context) {
+  const unsigned instance = context.embree.instID[0];
+  if (primitive == context.passed_bough && instance == context.passed_instance) return false;
+  const BoughRow& b = tree.rows[primitive];
+  const float scale = context.placed[instance].scale;  // the ray's direction is as long as 1 / scale here
+  const Vec3f origin = into(b, Vec3f(ray.org_x, ray.org_y, ray.org_z) - b.origin),
+              d = into(b, scale * Vec3f(ray.dir_x, ray.dir_y, ray.dir_z));
+  const QuickCrossing c = quick_crossing(b.bough, origin, d, ray.tnear / scale, ray.tfar / scale);
+  if (!(c.depth > 0)) return false;
+  context.depth += c.depth;
+  if (context.keep && context.count < context.crossings.size())
+    context.crossings[context.count++] = {c.enter * scale, c.leave * scale,
+                                          c.depth,         origin.z + 0.5f * (c.enter + c.leave) * d.z,
+                                          instance,        primitive};
+  return context.depth > context.enough;
+}
+
+// Nearest first: once enough has been met, nothing beyond the last of it is asked for.
+void bough_seen(const RTCIntersectFunctionNArguments* args) {
+  if (!args->valid[0]) return;
+  auto& context = *reinterpret_cast<BoughContext*>(args->context);
+  auto& ray = reinterpret_cast<RTCRayHit*>(args->rayhit)->ray;
+  if (!add_bough(*static_cast<const BoughTree*>(args->geometryUserPtr), args->primID, ray, context)) return;
+  float last = 0;
+  for (std::size_t i = 0; i < context.count; ++i) last = std::max(last, context.crossings[i].leave);
+  ray.tfar = std::min(ray.tfar, last);
+}
+
+void bough_shades(const RTCOccludedFunctionNArguments* args) {
   if (!args->valid[0]) return;
   auto& context = *reinterpret_cast<BoughContext*>(args->context);
   auto& ray = *reinterpret_cast<RTCRay*>(args->ray);
-  const auto& tree = *static_cast<const BoughTree*>(args->geometryUserPtr);
-  const unsigned instance = args->context->instID[0];
-  if (args->primID == context.passed_bough && instance == context.passed_instance) return;
-  const BoughRow& b = tree.rows[args->primID];
-  const float scale = context.placed[instance].scale;  // of tree coordinates per metre of ray: 1 / scale
-  const Vec3f direction = scale * Vec3f(ray.dir_x, ray.dir_y, ray.dir_z);
-  const Vec3f origin = into(b, Vec3f(ray.org_x, ray.org_y, ray.org_z) - b.origin), d = into(b, direction);
-  const QuickCrossing c = quick_crossing(b.bough, origin, d, ray.tnear / scale, ray.tfar / scale);
-  if (!(c.depth > 0)) return;
-  context.depth += c.depth;
-  if (context.keep) {
-    if (context.count < context.crossings.size())
-      context.crossings[context.count++] = {
-          c.enter * scale, c.depth, origin.z + 0.5f * (c.enter + c.leave) * d.z, instance, args->primID};
-  } else if (context.depth > context.enough) {
+  if (add_bough(*static_cast<const BoughTree*>(args->geometryUserPtr), args->primID, ray, context))
     ray.tfar = -std::numeric_limits<float>::infinity();
-  }
 }
 
 RTCRay ray_of(const Vec3& origin, const Vec3& direction, double far_m) {
@@ -165,6 +178,13 @@ struct BoughScene::State {
     rtcOccluded1(top.get(), &c.embree, &ray);
     return static_cast<double>(c.depth);
   }
+  void find_boughs(const Vec3& origin, const Vec3& direction, double far_m, BoughContext& c) const {
+    c.keep = true;
+    RTCRayHit ray;
+    ray.ray = ray_of(origin, direction, far_m);
+    ray.hit.geomID = ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(top.get(), &c.embree, &ray);
+  }
 };
 
 // Kinds of bough: those of one species, lengths relative to the outer radius apart.
@@ -200,7 +220,8 @@ void BoughScene::State::add_trees(std::span<const NeedleKind> kinds, const RunCo
     rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(trees[p].rows.size()));
     rtcSetGeometryUserData(geometry, &trees[p]);
     rtcSetGeometryBoundsFunction(geometry, bough_bounds, nullptr);
-    rtcSetGeometryOccludedFunction(geometry, bough_met);
+    rtcSetGeometryIntersectFunction(geometry, bough_seen);
+    rtcSetGeometryOccludedFunction(geometry, bough_shades);
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(trees[p].scene.get(), geometry);
     rtcReleaseGeometry(geometry);
@@ -273,15 +294,9 @@ float BoughScene::station(const Lit& lit, std::uint32_t instance, std::uint32_t 
                              ? -lit.viewer_.direction
                              : glm::normalize(lit.viewer_.position_m - s.centre_m - world(middle));
   const BoughLight whole = s.tables[b.kind].at(in_bough(to_viewer), in_bough(lit.to_sun_));
-  double reaches = 0;
-  for (const float turn : {0.0f, 3.14159265f}) {
-    const float azimuth = turn + 2.4f * static_cast<float>(k), rho = 0.6f * b.bough.outer_radius;
-    BoughContext c = s.context();
-    c.passed_instance = instance, c.passed_bough = bough;
-    reaches +=
-        0.5 * std::exp(-s.depth(world(middle + rho * (std::cos(azimuth) * b.side + std::sin(azimuth) * b.up)),
-                                lit.to_sun_, 1e30, c));
-  }
+  BoughContext c = s.context();
+  c.passed_instance = instance, c.passed_bough = bough;
+  const double reaches = std::exp(-s.depth(world(middle), lit.to_sun_, 1e30, c));
   const float found = static_cast<float>(whole.opacity > 0 ? reaches * whole.reflected / whole.opacity : 0.0);
   kept.store(found, std::memory_order_relaxed);
   return found;
@@ -299,18 +314,20 @@ float BoughScene::light_at(const Lit& lit, std::uint32_t instance, std::uint32_t
 
 BoughScene::Seen BoughScene::seen(const Vec3& origin_m, const Vec3& direction, const Lit& lit,
                                   double far_m) const {
-  constexpr float kHidden = 0.002f;
+  constexpr float kHidden = 0.002f, kLittle = 0.03f;
   BoughContext c = state_->context();
-  c.keep = true;
-  state_->depth(origin_m - state_->centre_m, direction, far_m, c);
+  state_->find_boughs(origin_m - state_->centre_m, direction, far_m, c);
   Seen seen;
   const auto met = std::span(c.crossings).first(c.count);
   // Few: sorted by insertion.
   for (std::size_t i = 1; i < met.size(); ++i)
     for (std::size_t k = i; k > 0 && met[k].enter < met[k - 1].enter; --k) std::swap(met[k], met[k - 1]);
   for (const Crossing& m : met) {
-    const float left = seen.through * lane_exp(-m.depth);
-    seen.reflected += (seen.through - left) * light_at(lit, m.instance, m.bough, m.z);
+    const float left = seen.through * lane_exp(-m.depth), share = seen.through - left;
+    // Little of a bough is taken to be lit as those in front of it.
+    seen.reflected +=
+        share * (share > kLittle || !(seen.through < 0.5f) ? light_at(lit, m.instance, m.bough, m.z)
+                                                           : seen.reflected / (1.0f - seen.through));
     seen.through = left;
     if (left < kHidden) break;
   }

@@ -7,8 +7,8 @@
 //   light), its light = (reflected / opacity of the whole bough from there, lit from there) (sun that reaches
 //   it).
 // The ratio is tabulated once per kind of bough from bough_light, over all directions of viewer and sun, the
-// bough's own shade and hot spot included. What reaches it through other boughs is asked by two rays at each
-// of a few stations along the bough, when the bough is first seen, and kept for one viewer and sun.
+// bough's own shade and hot spot included. What reaches it through other boughs is asked by a ray from each
+// of a few stations on its axis, when the bough is first seen, and kept for one viewer and sun.
 //
 // Assumptions: single scattering ([Meyer00]: low albedo); boughs are at most a few pixels wide, as light is
 // even across one; viewer far away against a bough's length; boughs that lie in each other are taken one

@@ -16,20 +16,11 @@ struct CurvePoint {
   float x, y, z, radius;
 };
 
-const FoliageTemplate& template_of(const Target& to, const Prototype& prototype, std::uint32_t element) {
-  const std::string& material = prototype.materials[prototype.foliage[element].material];
-  const NeedleKind* kind = find_needle_kind(to.options.needles, material);
-  if (kind == nullptr)
-    throw_invalid("needles", "nothing is known of the needles of '" + material + "'",
-                  "a species with shoots, or shoots drawn as volumes");
-  return kind->foliage;
-}
-
 void count_needles(const Target& to, const Prototype& prototype, PrototypeScene& out) {
   constexpr std::size_t kMost = 0xFFFFFFFEu / 2;  // two points each, numbered in 32 bits
   std::size_t count = 0;
   for (const std::uint32_t i : out.shoot_elements) {
-    count += needle_count(template_of(to, prototype, i));
+    count += needle_count(needles_of_element(to.options, prototype, i));
     if (count > kMost)
       throw Error(ErrorKind::kLimitExceeded, prototype.name, "has more needles than can be numbered",
                   "at most " + std::to_string(kMost) + ", or shoots drawn as volumes");
@@ -48,7 +39,8 @@ void write_needles(const Target& to, const Prototype& prototype, const Prototype
   std::vector<Needle> needles;
   for (const std::uint32_t i : out.shoot_elements) {
     needles.clear();
-    expand_needles(prototype.foliage[i], template_of(to, prototype, i), to.options.needle_seed, i, needles);
+    expand_needles(prototype.foliage[i], needles_of_element(to.options, prototype, i), to.options.needle_seed,
+                   i, needles);
     for (const Needle& n : needles) {
       const Vec3 base(n.base_m), tip(n.tip_m);
       const double length = glm::distance(base, tip), radius_m = n.radius_m;
@@ -73,6 +65,16 @@ void skip_start(const RTCFilterFunctionNArguments* args) {
 }
 
 }  // namespace
+
+const FoliageTemplate& needles_of_element(const RayScene::Options& options, const Prototype& prototype,
+                                          std::uint32_t element) {
+  const std::string& material = prototype.materials[prototype.foliage[element].material];
+  const NeedleKind* kind = find_needle_kind(options.needles, material);
+  if (kind == nullptr)
+    throw_invalid("needles", "nothing is known of the needles of '" + material + "'",
+                  "a species with shoots, or shoots drawn as volumes");
+  return kind->foliage;
+}
 
 NeedlePlace needle_place(const PrototypeScene& prototype, unsigned primitive) {
   const auto& up_to = prototype.needles_up_to;

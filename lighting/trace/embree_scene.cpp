@@ -174,6 +174,8 @@ void add_figures(const Target& to, const Prototype& prototype, PrototypeScene& o
   add_discs(to, prototype, out);
   if (to.options.shoots == ShootForm::kNeedles)
     add_needles(to, prototype, out);
+  else if (to.options.shoots == ShootForm::kBough)
+    add_boughs(to, prototype, out);
   else
     add_shoots(to, prototype, out);
   add_wood_cones(to, prototype, out);

@@ -14,6 +14,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "lighting/shade/shoot_bough.h"
 #include "lighting/trace/ray_scene.h"
 #include "lighting/trace/solids.h"
 
@@ -52,6 +53,7 @@ struct PrototypeScene {
   unsigned copy = kManyCopies;
   std::vector<std::uint32_t> quad_elements, disc_elements, shoot_elements;  // Embree primitive -> element
   std::vector<ShootVolume> shoots;
+  std::vector<ShootBough> boughs;            // instead of them
   std::vector<std::uint32_t> needles_up_to;  // of the first shoot, the first two, ... where drawn one by one
   std::vector<ConeFrustum> cones;
 };
@@ -150,9 +152,26 @@ struct Target {
   const RayScene::Options& options;
 };
 void add_figures(const Target& to, const Prototype& prototype, PrototypeScene& out);
-// Shoots and wood of them (embree_solids.cpp), and needles (embree_needles.cpp).
+// Shoots and wood of them (embree_solids.cpp), needles (embree_needles.cpp) and boughs (embree_boughs.cpp).
 void add_shoots(const Target& to, const Prototype& prototype, PrototypeScene& out);
 void add_needles(const Target& to, const Prototype& prototype, PrototypeScene& out);
+void add_boughs(const Target& to, const Prototype& prototype, PrototypeScene& out);
+
+// What the options say of the needles of an element; throws Error(kInvalidInput) where they say nothing.
+const FoliageTemplate& needles_of_element(const RayScene::Options& options, const Prototype& prototype,
+                                          std::uint32_t element);
+
+struct Callbacks {
+  RTCBoundsFunction bounds;
+  RTCIntersectFunctionN intersect;
+  RTCOccludedFunctionN occluded;
+};
+void attach_solids(const Target& to, PrototypeScene& out, Slot slot, std::size_t count,
+                   const Callbacks& callbacks);
+void set_bounds(RTCBounds& to, const Box& box);  // a step of single precision wider
+void write_hit(RTCRayHit& to, double t, const Vec3& normal, unsigned slot, unsigned primitive, unsigned copy);
+// A number in [0, 1) of this ray and this shoot.
+double lot_of(const RayContext& context, unsigned copy, unsigned primitive);
 void add_wood_cones(const Target& to, const Prototype& prototype, PrototypeScene& out);
 
 }  // namespace sunfleck::trace

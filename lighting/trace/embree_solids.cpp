@@ -11,10 +11,6 @@
 #include "sim/base/random.h"
 
 namespace sunfleck::trace {
-namespace {
-
-Vec3 origin_of(const RTCRay& ray) { return {ray.org_x, ray.org_y, ray.org_z}; }
-Vec3 direction_of(const RTCRay& ray) { return {ray.dir_x, ray.dir_y, ray.dir_z}; }
 
 void set_bounds(RTCBounds& to, const Box& box) {
   // One step outwards of single precision on every side.
@@ -36,6 +32,29 @@ void write_hit(RTCRayHit& to, double t, const Vec3& normal, unsigned slot, unsig
   to.hit.instID[0] = copy;
 }
 
+double lot_of(const RayContext& context, unsigned copy, unsigned primitive) {
+  const std::uint64_t lot = mix_seed(context.ray_key, (std::uint64_t{copy} << 32) | primitive);
+  return static_cast<double>(lot >> 11) * 0x1p-53;
+}
+
+void attach_solids(const Target& to, PrototypeScene& out, Slot slot, std::size_t count,
+                   const Callbacks& callbacks) {
+  const RTCGeometry geometry = rtcNewGeometry(to.device.get(), RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(count));
+  rtcSetGeometryUserData(geometry, &out);
+  rtcSetGeometryBoundsFunction(geometry, callbacks.bounds, nullptr);
+  rtcSetGeometryIntersectFunction(geometry, callbacks.intersect);
+  rtcSetGeometryOccludedFunction(geometry, callbacks.occluded);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(to.scene, geometry, to.first_id + slot);
+  rtcReleaseGeometry(geometry);
+}
+
+namespace {
+
+Vec3 origin_of(const RTCRay& ray) { return {ray.org_x, ray.org_y, ray.org_z}; }
+Vec3 direction_of(const RTCRay& ray) { return {ray.dir_x, ray.dir_y, ray.dir_z}; }
+
 // Distance to the needle met, or infinity.
 double needle_distance(const RayContext& context, const PrototypeScene& prototype, unsigned primitive,
                        const RTCRay& ray) {
@@ -47,8 +66,7 @@ double needle_distance(const RayContext& context, const PrototypeScene& prototyp
   const auto span = inside(shoot.cylinder, origin_of(ray), direction);
   if (!span) return kNever;
   const double enter = std::max(span->enter, static_cast<double>(ray.tnear));
-  const std::uint64_t lot = mix_seed(context.ray_key, (std::uint64_t{copy} << 32) | primitive);
-  const double u = static_cast<double>(lot >> 11) * 0x1p-53;
+  const double u = lot_of(context, copy, primitive);
   const double met = enter - std::log1p(-u) / (shoot.extinction_per_m * glm::length(direction));
   return met < span->leave && met < static_cast<double>(ray.tfar) ? met : kNever;
 }
@@ -123,25 +141,6 @@ void cone_occluded(const RTCOccludedFunctionNArguments* args) {
   const auto& prototype = *static_cast<const PrototypeScene*>(args->geometryUserPtr);
   if (wood_hit(context_of(args->context), prototype, args->primID, ray))
     ray.tfar = -std::numeric_limits<float>::infinity();
-}
-
-struct Callbacks {
-  RTCBoundsFunction bounds;
-  RTCIntersectFunctionN intersect;
-  RTCOccludedFunctionN occluded;
-};
-
-void attach_solids(const Target& to, PrototypeScene& out, Slot slot, std::size_t count,
-                   const Callbacks& callbacks) {
-  const RTCGeometry geometry = rtcNewGeometry(to.device.get(), RTC_GEOMETRY_TYPE_USER);
-  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(count));
-  rtcSetGeometryUserData(geometry, &out);
-  rtcSetGeometryBoundsFunction(geometry, callbacks.bounds, nullptr);
-  rtcSetGeometryIntersectFunction(geometry, callbacks.intersect);
-  rtcSetGeometryOccludedFunction(geometry, callbacks.occluded);
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometryByID(to.scene, geometry, to.first_id + slot);
-  rtcReleaseGeometry(geometry);
 }
 
 ShootVolume volume_of(const FoliageElement& e, const Placement& placement) {

@@ -120,6 +120,10 @@ RTCRay embree_ray(const Piece& piece, const Vec3& direction) {
   return ray;
 }
 
+Vec3 turned(const SceneCopy& copy, const Vec3& v) {
+  return {copy.cos_yaw * v.x - copy.sin_yaw * v.y, copy.sin_yaw * v.x + copy.cos_yaw * v.y, v.z};
+}
+
 // A needle met by a ray is turned any way, but seen in proportion to the cosine.
 void set_needle(std::uint64_t lot, const Vec3& direction, RayHit& hit) {
   RandomStream stream(lot, 0, RandomPurpose::kFreeFlight);
@@ -131,12 +135,24 @@ void set_needle(std::uint64_t lot, const Vec3& direction, RayHit& hit) {
                std::sqrt(cos2) * direction;
 }
 
+// A needle along `axis` as the ray sees it: its normals in proportion to their cosine.
+void set_side_of_needle(std::uint64_t lot, const Vec3& axis, const Vec3& direction, RayHit& hit) {
+  RandomStream stream(lot, 0, RandomPurpose::kFreeFlight);
+  hit.front = stream.below(2) == 0;
+  const Vec3 towards = glm::dot(direction, axis) * axis - direction;
+  const double sine = glm::length(towards);
+  const double across = 2.0 * stream.uniform() - 1.0;
+  hit.normal = sine > 1e-9 ? std::sqrt(1.0 - across * across) * towards / sine +
+                                 across * glm::cross(axis, towards / sine)
+                           : -direction;
+}
+
 void set_surface(const RTCHit& from, const SceneCopy& copy, const Vec3& direction, RayHit& hit) {
   const Vec3 n(from.Ng_x, from.Ng_y, from.Ng_z);
-  const Vec3 turned(copy.cos_yaw * n.x - copy.sin_yaw * n.y, copy.sin_yaw * n.x + copy.cos_yaw * n.y, n.z);
-  const double length = glm::length(turned);
-  hit.front = glm::dot(turned, direction) < 0.0;
-  hit.normal = length > 0.0 ? turned / (hit.front ? length : -length) : -direction;
+  const Vec3 there = turned(copy, n);
+  const double length = glm::length(there);
+  hit.front = glm::dot(there, direction) < 0.0;
+  hit.normal = length > 0.0 ? there / (hit.front ? length : -length) : -direction;
 }
 
 RayHit described(const RTCRayHit& from, const SceneCopy& copy, const Piece& piece, const Vec3& direction,
@@ -158,7 +174,13 @@ RayHit described(const RTCRayHit& from, const SceneCopy& copy, const Piece& piec
     case kShoots:
       hit.kind = HitKind::kFoliage;
       hit.local = copy.figures->shoot_elements[from.hit.primID];
-      set_needle(mix_seed(ray_key, hit.local), direction, hit);
+      if (copy.figures->boughs.empty()) {
+        set_needle(mix_seed(ray_key, hit.local), direction, hit);
+      } else {
+        hit.needle = RayHit::kSomeNeedle;
+        const Vec3 axis(from.hit.Ng_x, from.hit.Ng_y, from.hit.Ng_z);
+        set_side_of_needle(mix_seed(ray_key, hit.local), glm::normalize(turned(copy, axis)), direction, hit);
+      }
       return hit;
     case kNeedles: {
       const NeedlePlace place = needle_place(*copy.figures, from.hit.primID);
@@ -203,9 +225,10 @@ RayScene::State::State(const Forest& forest, const Options& options, const RunCo
   centre_m = centre_of(forest, options.coordinates);
   around = surroundings_of(forest, options, centre_m);
   build(forest, options, control);
-  for (const PrototypeScene& f : figures) has_shoots = has_shoots || !f.shoots.empty();
+  const auto by_lot = [](const PrototypeScene& f) { return !f.shoots.empty() || !f.boughs.empty(); };
+  has_shoots = std::any_of(figures.begin(), figures.end(), by_lot);
   for (const PlacedTrees& trees : casts)
-    for (const PrototypeScene& f : trees.placed) has_shoots = has_shoots || !f.shoots.empty();
+    has_shoots = has_shoots || std::any_of(trees.placed.begin(), trees.placed.end(), by_lot);
 }
 
 void RayScene::State::build_prototypes(const Forest& forest, const Options& options,

@@ -23,7 +23,7 @@ struct RayHit {
   std::uint32_t local = 0;     // foliage element, wood segment or triangle of its prototype
   std::uint32_t needle = kNoNeedle;  // of the shoot `local`, where shoots are drawn needle by needle
 
-  static constexpr std::uint32_t kNoNeedle = 0xFFFFFFFFu;
+  static constexpr std::uint32_t kNoNeedle = 0xFFFFFFFFu, kSomeNeedle = 0xFFFFFFFEu;  // kSome: of a bough
   double distance_m = 0;
   Vec3 position_m{0};  // world; for a periodic forest brought back into the base cell
   // The same point on the original where a wrapped copy was hit: a ray goes on from here with a RayStart of
@@ -53,7 +53,11 @@ enum class ShootForm : std::uint8_t {
   kVolume,  // a cylinder evenly filled with needles turned any way, met by lot
   // Every needle for itself, round, in the places of expand_needles (which lie inside the cylinder and
   // have the shoot's area): what the others are measured against, and what is seen from near by.
-  kNeedles
+  kNeedles,
+  // The volume of a bough ([Meyer00]; lighting/shade/shoot_bough.h): denser towards the axis, needles that
+  // lean one way. Met by lot; what is met is a needle of the bough that faces the ray. Light that goes back
+  // the way it came meets needles anew: no hot spot.
+  kBough
 };
 
 // An Embree scene over the instances of a forest. Immutable; all calls are const and safe from many threads.

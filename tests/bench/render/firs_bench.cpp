@@ -2,7 +2,7 @@
 // for each number of samples per pixel the error against a picture of 1024 samples of explicit needles (in
 // two halves, whose difference gives the noise that is taken off), thread CPU time, and how much longer
 // explicit needles take for the same error. Also one fir at 8 to 256 pixels.
-//   lighting_render_firs [single|forest|all]
+//   lighting_render_firs [quick|single|forest|all]
 #include <time.h>
 
 #include <cmath>
@@ -145,12 +145,22 @@ struct Run {
   double rmse, cpu_s, bias;
 };
 
-Run measure(const View& view, const Shade& shade, const Reference& truth, int samples) {
-  const double began = thread_s();
-  const Picture p = draw(view, shade, samples, 7);
-  const double cpu_s = thread_s() - began;
-  return {samples, std::sqrt(std::max(0.0, mean_square(p, truth.picture) - truth.noise2)), cpu_s,
-          mean(p) - mean(truth.picture)};
+// Small pictures are drawn several times with other samples: mean square error and mean time. `shade` makes
+// the shading anew for each, so that what it keeps is paid by every picture.
+Run measure(const View& view, const std::function<Shade()>& shading, const Reference& truth, int samples) {
+  const double rays = static_cast<double>(truth.picture.size()) * samples;
+  const int pictures = std::clamp(static_cast<int>(60000 / rays), 1, 100);
+  draw(view, shading(), 1, 6);  // caches warm for all alike
+  Run run{samples, 0, 0, 0};
+  for (int i = 0; i < pictures; ++i) {
+    const double began = thread_s();
+    const Picture p = draw(view, shading(), samples, 7 + static_cast<std::uint64_t>(i));
+    run.cpu_s += (thread_s() - began) / pictures;
+    run.rmse += mean_square(p, truth.picture) / pictures;
+    run.bias += (mean(p) - mean(truth.picture)) / pictures;
+  }
+  run.rmse = std::sqrt(std::max(0.0, run.rmse - truth.noise2));
+  return run;
 }
 
 // Samples that explicit needles need for an error: on the straight line (in logarithms) through the two
@@ -183,35 +193,39 @@ struct Firs {
   }
 };
 
-void compare(const char* name, const Firs& firs, const View& view, int truth_samples, int stations,
-             double bough_px) {
+void print_run(const char* name, const Run& r, std::size_t pixels) {
+  std::printf("  %-9s %3d spp  rmse %.4f  bias %+.4f  %9.5f s  %5.0f ns/sample", name, r.samples, r.rmse,
+              r.bias, r.cpu_s, 1e9 * r.cpu_s / (static_cast<double>(pixels) * r.samples));
+}
+
+void compare(const char* name, const Firs& firs, const View& view, int truth_samples,
+             const std::vector<int>& stations, double bough_px) {
   const Shade each = [&](const Line& l) { return firs.explicit_at(l); };
   const Reference truth = two_halves(view, each, truth_samples);
-  std::vector<Run> runs;
-  for (const int spp : {1, 4, 16, 64}) runs.push_back(measure(view, each, truth, spp));
-  const double pixels = static_cast<double>(truth.picture.size());
+  const std::size_t pixels = truth.picture.size();
   std::printf("%s: %d x %d, boughs %.2f px, noise of the truth %.4f, mean %.4f\n", name, view.width,
               view.height, bough_px, std::sqrt(truth.noise2), mean(truth.picture));
-  for (const Run& r : runs)
-    std::printf("  explicit %3d spp  rmse %.4f  %8.4f s  %5.0f ns/sample\n", r.samples, r.rmse, r.cpu_s,
-                1e9 * r.cpu_s / (pixels * r.samples));
+  std::vector<Run> runs;
   for (const int spp : {1, 4, 16, 64}) {
-    const double began = thread_s();
-    const BoughScene::Lit lit(firs.boughs, view.viewer, kToSun, stations);
-    const Shade lod = [&](const Line& l) {
-      const BoughScene::Seen s = firs.boughs.seen(l.origin, l.direction, lit);
-      return static_cast<double>(s.reflected) + static_cast<double>(s.through) * kBackground;
-    };
-    const double ready_s = thread_s() - began;
-    Run r = measure(view, lod, truth, spp);
-    r.cpu_s += ready_s;
-    std::printf(
-        "  boughs   %3d spp  rmse %.4f  %8.4f s  %5.0f ns/sample  bias %+.4f  explicit/boughs: same error "
-        "%5.2f, "
-        "64 spp %6.1f\n",
-        spp, r.rmse, r.cpu_s, 1e9 * r.cpu_s / (pixels * spp), r.bias,
-        explicit_seconds(runs, r.rmse) / r.cpu_s, runs.back().cpu_s / r.cpu_s);
+    runs.push_back(measure(
+        view, [&] { return each; }, truth, spp));
+    print_run("explicit", runs.back(), pixels);
+    std::printf("\n");
   }
+  for (const int n : stations)
+    for (const int spp : {1, 2, 4, 16, 64}) {
+      const auto boughs = [&]() -> Shade {
+        const auto lit = std::make_shared<BoughScene::Lit>(firs.boughs, view.viewer, kToSun, n);
+        return [&firs, lit](const Line& l) {
+          const BoughScene::Seen s = firs.boughs.seen(l.origin, l.direction, *lit);
+          return static_cast<double>(s.reflected) + static_cast<double>(s.through) * kBackground;
+        };
+      };
+      const Run r = measure(view, boughs, truth, spp);
+      print_run(("boughs/" + std::to_string(n)).c_str(), r, pixels);
+      std::printf("  explicit/boughs: same error %5.2f, at 64 spp %6.1f\n",
+                  explicit_seconds(runs, r.rmse) / r.cpu_s, runs.back().cpu_s / r.cpu_s);
+    }
   std::fflush(stdout);
 }
 
@@ -229,14 +243,16 @@ void single(int largest) {
       return Line{{(x - 0.5 * view.width) / metre_px, -5.0, 1.02 - y / metre_px}, {0, 1, 0}};
     };
     view.viewer = {{0, -5, 0.5}, true, {0, 1, 0}};
-    compare(("fir of " + std::to_string(px) + " px").c_str(), firs, view, 1024, 1, 0.033 * metre_px);
+    compare(("fir of " + std::to_string(px) + " px").c_str(), firs, view, 1024, {1}, 0.033 * metre_px);
   }
 }
 
-// From 127 pixels nearest to 64 farthest, as in the paper.
-void eighty() {
-  constexpr int kRows = 8, kColumns = 10, kWidth = 1232, kHeight = 212;
-  constexpr double kFocal_px = 1270;
+// Trees from `nearest_px` to half of that, 127 to 64 in the paper.
+void eighty(double nearest_px, int step) {
+  constexpr int kRows = 8, kColumns = 10;
+  const double focal_px = 10 * nearest_px;
+  const int width = static_cast<int>(0.97 * focal_px), height = static_cast<int>(0.167 * focal_px);
+  const double left_px = 0.5 * width, above_px = 0.044 * focal_px;
   Forest forest;
   forest.materials = {{"fir", {}}};
   forest.prototypes = {fir(1)};
@@ -245,23 +261,23 @@ void eighty() {
     for (int c = 0; c < kColumns; ++c) {
       const double away = 10.0 + 10.0 * r / (kRows - 1);
       Instance at;
-      at.position_m = {((c + 0.5 + random.uniform(-0.3, 0.3)) / kColumns - 0.5) * kWidth / kFocal_px * away,
-                       away, 0};
+      at.position_m = {((c + 0.5 + random.uniform(-0.3, 0.3)) / kColumns - 0.5) * 0.97 * away, away, 0};
       at.yaw_rad = static_cast<float>(random.uniform(0, 2 * kPi));
       forest.instances.push_back(at);
     }
   const Firs firs(std::move(forest));
   View view;
-  view.width = kWidth, view.height = kHeight, view.step = 3;
+  view.width = width, view.height = height, view.step = step;
   const Vec3 eye(0, 0, 2);
   view.ray = [=](double x, double y) {
-    return Line{eye, glm::normalize(Vec3(x - 0.5 * kWidth, kFocal_px, -(y + 56)))};
+    return Line{eye, glm::normalize(Vec3(x - left_px, focal_px, -(y + above_px)))};
   };
   view.viewer = {eye, false, {0, 1, 0}};
-  std::printf("explicit: %.1f MB, boughs: %.2f MB\n", 1e-6 * static_cast<double>(firs.needles.memory_bytes()),
+  std::printf("80 firs: explicit needles %.1f MB, boughs %.2f MB\n",
+              1e-6 * static_cast<double>(firs.needles.memory_bytes()),
               1e-6 * static_cast<double>(firs.boughs.memory_bytes()));
-  compare("80 firs", firs, view, 1024, 3, 0.033 * kFocal_px / 15);
-  compare("80 firs, one station", firs, view, 1024, 1, 0.033 * kFocal_px / 15);
+  compare(("80 firs of " + std::to_string(static_cast<int>(nearest_px)) + " px to half of it").c_str(), firs,
+          view, 1024, {1, 3}, 0.033 * focal_px / 15);
 }
 
 }  // namespace
@@ -271,6 +287,10 @@ int main(int argc, char** argv) {
   const std::string what = argc > 1 ? argv[1] : "all";
   if (what == "quick") sunfleck::single(32);
   if (what == "single" || what == "all") sunfleck::single(256);
-  if (what == "forest" || what == "all") sunfleck::eighty();
+  if (what == "forest" || what == "all") {
+    sunfleck::eighty(127, 2);
+    sunfleck::eighty(42, 1);
+    sunfleck::eighty(14, 1);
+  }
   return 0;
 }

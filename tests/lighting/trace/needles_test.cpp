@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "lighting/trace/directions.h"
 #include "lighting/trace/ray_scene.h"
 #include "lighting/trace/solids.h"
 #include "sim/base/parallel.h"
@@ -31,8 +32,8 @@ Forest one_shoot(const FoliageTemplate& f) {
       {test::shoot(Vec3(0), {0.5 * f.shoot_length_m, 0, 0}, f.shoot_radius_m, f.shoot_area_m2())});
 }
 
-RayScene::Options needles_of(const FoliageTemplate& foliage) {
-  return {.ground = false, .shoots = ShootForm::kNeedles, .needles = {{"m0", foliage}}};
+RayScene::Options needles_of(const FoliageTemplate& foliage, ShootForm form = ShootForm::kNeedles) {
+  return {.ground = false, .shoots = form, .needles = {{"m0", foliage}}};
 }
 
 Vec3 any_direction(RandomStream& random) {
@@ -252,6 +253,80 @@ TEST(NeedleRays, UnknownMaterialIsRefused) {
   const Forest forest = one_shoot(foliage);
   test::expect_refused([&] { RayScene(forest, {.shoots = ShootForm::kNeedles}); }, ErrorKind::kInvalidInput,
                        "needles", "'m0'", "a species with shoots");
+}
+
+struct LightOnNeedles {
+  double sky = 0, sun = 0;  // of the light on a lone needle, mean over all needles
+};
+
+// `samples` places on the needles of a tree of shoots of one size, one ray to a uniform sky and one to the
+// sun each; without bounces and ground.
+LightOnNeedles light_on_needles(const Forest& forest, const FoliageTemplate& foliage, const Vec3& to_sun,
+                                int samples) {
+  const Prototype& tree = forest.prototypes[0];
+  const RayScene rays(forest, needles_of(foliage));
+  RandomStream random(12, 0, RandomPurpose::kTestScene);
+  std::vector<Needle> needles;
+  LightOnNeedles light;
+  for (int i = 0; i < samples; ++i) {
+    const std::uint32_t shoot = random.below(static_cast<std::uint32_t>(tree.foliage.size()));
+    needles.clear();
+    expand_needles(tree.foliage[shoot], foliage, 1, shoot, needles);
+    const std::uint32_t k = random.below(static_cast<std::uint32_t>(needles.size()));
+    const Vec3 base(needles[k].base_m), tip(needles[k].tip_m);
+    const Basis around = basis_around(glm::normalize(tip - base));
+    const double turn = random.uniform(0, 2 * kPi), radius = needles[k].radius_m;
+    const Vec3 normal = std::cos(turn) * around.tangent + std::sin(turn) * around.bitangent;
+    const Vec3 at = glm::mix(base, tip, random.uniform()) + radius * normal;
+    const RayStart from{HitKind::kFoliage, true, 0, shoot, k};
+    const Vec3 up = trace::cosine_direction(normal, random.uniform(), random.uniform());
+    light.sky += up.z > 0 && !rays.occluded(at, up, 0, from);
+    const double cosine = glm::dot(normal, to_sun);
+    light.sun += cosine > 0 && !rays.occluded(at, to_sun, 0, from) ? 4 * cosine : 0;
+  }
+  return {2 * light.sky / samples, light.sun / samples};
+}
+
+// The same for the clouds of needles: places all over their cylinders, needles turned any way.
+LightOnNeedles light_in_clouds(const Forest& forest, const Vec3& to_sun, int samples) {
+  const Prototype& tree = forest.prototypes[0];
+  const RayScene rays(forest, {.ground = false});
+  RandomStream random(13, 0, RandomPurpose::kTestScene);
+  LightOnNeedles light;
+  for (int i = 0; i < samples; ++i) {
+    const FoliageElement& e = tree.foliage[random.below(static_cast<std::uint32_t>(tree.foliage.size()))];
+    const Vec3 u(e.half_u_m);
+    const Basis around = basis_around(glm::normalize(u));
+    const double turn = random.uniform(0, 2 * kPi),
+                 rho = glm::length(Vec3(e.half_v_m)) * std::sqrt(random.uniform());
+    const Vec3 at = Vec3(e.centre_m) + random.uniform(-1, 1) * u +
+                    rho * (std::cos(turn) * around.tangent + std::sin(turn) * around.bitangent);
+    const Vec3 up = any_direction(random);
+    light.sky += up.z > 0 && !rays.occluded(at, up);
+    light.sun += !rays.occluded(at, to_sun);
+  }
+  return {2 * light.sky / samples, light.sun / samples};
+}
+
+// Trees of 10 cm: light on their needles, one by one, against the clouds that `reference` computes with. In
+// spruce they agree; larch's tufts shade themselves (fir: sky 0.89, sun 1.11; pine 0.90 and 0.89). Standard
+// errors 0.02.
+TEST(NeedleRays, LightOfATreeAgainstItsClouds) {
+  struct Known {
+    const char* file;
+    double sky, sun;
+  };
+  for (const Known& k : {Known{"picea_abies", 1.02, 1.015}, Known{"larix_decidua", 0.89, 0.88}}) {
+    const Species species = species_of(k.file);
+    Forest forest = test::forest_of({});
+    forest.prototypes[0] = grow_prototype(species, expected_size(species, 10), 1, 1);
+    forest.prototypes[0].materials = {"m0"};
+    const Vec3 to_sun = glm::normalize(Vec3(0.5, 0.3, 0.8));
+    const LightOnNeedles each = light_on_needles(forest, species.foliage, to_sun, 20000),
+                         cloud = light_in_clouds(forest, to_sun, 20000);
+    EXPECT_NEAR(each.sky / cloud.sky, k.sky, 0.06) << k.file;
+    EXPECT_NEAR(each.sun / cloud.sun, k.sun, 0.06) << k.file;
+  }
 }
 
 TEST(NeedleRays, MemoryOfASpruce) {
