@@ -45,14 +45,20 @@ RenderMode render_mode_named(const std::string& word, const std::string& where) 
   throw_invalid(where, "is '" + word + "'", "light_map or path_traced");
 }
 
+LeafSun leaf_sun_named(const std::string& word, const std::string& where) {
+  if (word == "traced") return LeafSun::kTraced;
+  if (word == "stored") return LeafSun::kStored;
+  if (word == "tile") return LeafSun::kTile;
+  throw_invalid(where, "is '" + word + "'", "traced, stored or tile");
+}
+
 RenderSettings read_render_settings(const ConfigTable& table) {
   RenderSettings s;
   s.mode = render_mode_named(table.text_or("mode", "light_map"), table.where("mode"));
   s.effort.noise = table.number_or("noise", 0.0, {0.0, 1.0});
   s.effort.max_samples_per_pixel =
       static_cast<int>(table.integer_or("max_samples_per_pixel", 4096, {1, 1 << 20}));
-  s.leaf_sun = table.choice_or("leaf_sun", "traced", {"traced", "stored"}) == "stored" ? LeafSun::kStored
-                                                                                       : LeafSun::kTraced;
+  s.leaf_sun = leaf_sun_named(table.text_or("leaf_sun", "traced"), table.where("leaf_sun"));
   s.look.outline = read_outline(table);
   s.look.patterns = table.boolean_or("patterns", true);
   s.look.ground = table.choice_or("ground", "litter", {"litter", "grass"}) == "grass" ? GroundCover::kGrass

@@ -11,6 +11,9 @@ std::string to_string(RenderMode mode);  // "light_map", "path_traced"
 // Throws Error(kInvalidInput) at `where` for another word.
 RenderMode render_mode_named(const std::string& word, const std::string& where);
 
+// "traced", "stored", "tile"; throws likewise.
+LeafSun leaf_sun_named(const std::string& word, const std::string& where);
+
 struct RenderSettings {
   RenderMode mode = RenderMode::kLightMap;
   PictureLook look;
@@ -19,7 +22,8 @@ struct RenderSettings {
   ToneMap tone;
 };
 
-// Keys: mode ("light_map", "path_traced"), noise, max_samples_per_pixel, leaf_sun ("traced", "stored"),
+// Keys: mode ("light_map", "path_traced"), noise, max_samples_per_pixel, leaf_sun ("traced", "stored",
+// "tile"),
 // leaf_outline ("by_species", "as_modelled", "ovate", "lobed", "needle"), patterns, leaf_gloss,
 // ground ("litter", "grass"), gloss_exponent, bark_width_m, tone ("linear", "filmic"), exposure_stops, and
 // [[render.textures]]: material, leaf_alpha, leaf_reflectance, leaf_thickness, leaf_normal, bark (image

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lighting/render/leaf_flecks.h"
 #include "lighting/trace/surface_sampler.h"
 
 namespace sunfleck {
@@ -42,6 +43,9 @@ Vec3 Shader::leaf_seen(const RayHit& hit, const Vec3& to_viewer, PathSamples& nu
   if (parts_.leaf_sun == LeafSun::kTraced)
     return leaf_lit(hit, [&](const FaceLight& face) { return diffuse(face); }) +
            sun_scattered(hit, s, to_viewer, {sun_at[0], sun_at[1]});
+  if (parts_.leaf_sun == LeafSun::kTile)
+    return leaf_lit(hit, [&](const FaceLight& face) { return diffuse(face); }) +
+           sun_flecked(hit, s, to_viewer, {sun_at[0], sun_at[1]});
   if (s.gloss == 0.0 || s.is_shoot) return leaf_stored(hit);
   // Stored sunlight with its gloss: as if it came from the middle of the disc.
   const ElementLight& light = light_of(hit);
@@ -100,6 +104,14 @@ Vec3 Shader::sun_scattered(const RayHit& hit, const Surface& surface, const Vec3
   if (share == Vec3(0.0) || parts_.scene.occluded(hit.on_original_m, to_sun, leaving(hit, cosine > 0.0)))
     return Vec3(0.0);
   return share * parts_.light.beam_w_m2();
+}
+
+// As sun_scattered on a leaf, whose tile says whether the sun gets there.
+Vec3 Shader::sun_flecked(const RayHit& hit, const Surface& surface, const Vec3& to_viewer,
+                         const Vec2& number) const {
+  if (!parts_.light.has_beam() || !parts_.flecks->lit(hit, element_of(hit))) return Vec3(0.0);
+  const Vec3 to_sun = parts_.light.towards_sun(number);
+  return scattering(surface, to_sun, to_viewer) * cosine_factor(surface, to_sun) * parts_.light.beam_w_m2();
 }
 
 }  // namespace sunfleck

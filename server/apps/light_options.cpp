@@ -54,6 +54,10 @@ void add_render(CLI::App& app, RenderOptions& o) {
   c->add_option("--light-map", o.light_map, "Light map of that forest (.nc); path-traced pictures need none");
   c->add_option("--scene", o.scene, "Scene file (TOML) with [light] and, if wanted, [camera]")->required();
   c->add_option("--mode", o.mode, "light_map or path_traced; left out: as the scene file's [render] says");
+  c->add_option("--leaf-sun", o.leaf_sun,
+                "light_map: sunlight on leaves traced, stored (even over a leaf) or tile (sunflecks without "
+                "rays); left out: as the scene file's [render] says")
+      ->check(CLI::IsMember({"traced", "stored", "tile"}));
   c->add_option("--png", o.png, "Picture to write (.png, sRGB)");
   c->add_option("--exr", o.exr,
                 "Layers to write (.exr: RGB, depth, normal, instance id, irradiance, standard error)");

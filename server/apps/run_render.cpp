@@ -75,6 +75,7 @@ void run_render(const RenderOptions& o, const RunControl& control) {
   const Forest forest = load_forest(o.forest);
   RenderSettings settings = scene.render.value_or(RenderSettings{});
   if (!o.mode.empty()) settings.mode = render_mode_named(o.mode, "--mode");
+  if (!o.leaf_sun.empty()) settings.leaf_sun = leaf_sun_named(o.leaf_sun, "--leaf-sun");
   settings.effort.keep_when_stopped = settings.mode == RenderMode::kPathTraced;
   const RenderRequest request{scene.camera ? *scene.camera : default_camera(forest_bounds(forest)),
                               checked(scene.light->light, scene.light->optics.bands.size()), settings.look,
