@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "lighting/render/flip.h"
 #include "sim/base/contract.h"
 
 namespace sunfleck {
@@ -61,6 +62,12 @@ std::vector<double> shown_grey(const Image& image, double white) {
   return grey;
 }
 
+std::vector<double> shown_colours(const Image& image, double white) {
+  std::vector<double> colours(image.rgb.begin(), image.rgb.end());
+  for (double& c : colours) c /= white;
+  return colours;
+}
+
 }  // namespace
 
 double structural_similarity(std::span<const double> a, std::span<const double> b, int width_px,
@@ -98,6 +105,8 @@ ImageDifference image_difference(const Image& a, const Image& b) {
   if (sum_b > 0.0) d.bias = sum_a / sum_b - 1.0, d.mean_absolute = apart / sum_b;
   if (white > 0.0 && std::min(a.width_px, a.height_px) >= kWindow)
     d.ssim = structural_similarity(shown_grey(a, white), shown_grey(b, white), a.width_px, a.height_px);
+  if (white > 0.0)
+    d.flip = flip_difference(shown_colours(a, white), shown_colours(b, white), a.width_px, a.height_px).mean;
   return d;
 }
 

@@ -11,6 +11,7 @@ struct ImageDifference {
   double bias = 0;           // mean of a over mean of b, less 1
   double mean_absolute = 0;  // mean over pixels and channels of |a - b|, relative to the mean of b
   double ssim = 1;           // of the luminances as a PNG shows them (sRGB, white at b's 99th percentile)
+  double flip = 0;           // mean of flip.h over the same picture, at its usual distance
 };
 // Without the brightest hundredth of b's pixels (as image_noise). Sizes must match.
 ImageDifference image_difference(const Image& a, const Image& b);

@@ -7,6 +7,11 @@ namespace sunfleck {
 std::unique_ptr<RasterScene> chosen_raster(const PictureScene& scene, const RenderRequest& request,
                                            const Illumination& light) {
   if (request.visibility == Visibility::kRays) return nullptr;
+  if (request.leaf_sun == LeafSun::kTile) {
+    if (request.visibility == Visibility::kAuto) return nullptr;
+    throw_invalid("render.leaf_sun", "is \"tile\", which is not rasterised",
+                  "render.leaf_sun = \"traced\" or \"stored\", or render.visibility = \"rays\"");
+  }
   if (request.look.shoots != ShootForm::kVolume) {
     if (request.visibility == Visibility::kAuto) return nullptr;
     throw_invalid("render.needles", "is not \"volume\", the one form of shoots that is rasterised",

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "lighting/render/camera_rays.h"
+#include "lighting/render/leaf_flecks.h"
 #include "lighting/render/path_tracer.h"
 #include "lighting/render/raster_choice.h"
 #include "lighting/render/raster_image.h"
@@ -32,6 +34,8 @@ std::string counts(std::size_t found, const char* what, std::size_t wanted) {
 void require_match(const ForestIndex& index, const OpticsTable& optics, const LightMap& map) {
   if (map.bands.size() != optics.band_count())
     refuse_map(counts(map.bands.size(), "bands", optics.band_count()));
+  if (map.sunlit_fraction.size() != index.element_count())
+    refuse_map(counts(map.sunlit_fraction.size(), "sunlit shares", index.element_count()));
   for (std::size_t b = 0; b < map.bands.size(); ++b) {
     const BandLightMap& band = map.bands[b];
     if (band.band != optics.bands()[b])
@@ -180,12 +184,16 @@ Image render(const Forest& forest, const OpticsTable& optics, const LightMap& ma
   const PictureLight grey_light(stage.light, stage.band, grey);
   const SurfaceTable grey_surfaces(stage.scene, optics, stage.band, grey, request.look);
   const BandLightMap& band = map.bands[stage.band];
+  std::optional<LeafFlecks> flecks;
+  if (request.leaf_sun == LeafSun::kTile && stage.sources.has_beam())
+    flecks.emplace(forest, stage.scene, map, stage.light.to_sun, control);
+  const LeafFlecks* of_leaves = flecks ? &*flecks : nullptr;
   const double reach_m =
       forest.period ? std::numeric_limits<double>::infinity() : gather_reach_m(stage.scene.box());
-  const ShadingParts parts{stage.scene,      index,  band, stage.surfaces, stage.sources, stage.colour,
-                           request.leaf_sun, reach_m};
-  const ShadingParts grey_parts{stage.scene,      index,  band, grey_surfaces, grey_light, grey,
-                                request.leaf_sun, reach_m};
+  const ShadingParts parts{stage.scene,      index,   band,     stage.surfaces, stage.sources, stage.colour,
+                           request.leaf_sun, reach_m, of_leaves};
+  const ShadingParts grey_parts{stage.scene,      index,   band,     grey_surfaces, grey_light, grey,
+                                request.leaf_sun, reach_m, of_leaves};
   const NearTrees near =
       near_trees(request.camera, instance_boxes(outline_of(forest)), forest.period.has_value());
   const Shader shader(parts, find_mean_light(parts, grey_parts, near));

@@ -82,7 +82,8 @@ struct RenderEffort {
 // Where a picture from a light map takes the sunlight on a leaf from.
 enum class LeafSun {
   kStored,  // the light map: even over the leaf
-  kTraced   // a shadow ray from the place seen: shadows fall across leaves
+  kTraced,  // a shadow ray from the place seen: shadows fall across leaves
+  kTile     // sunflecks whose mean is the stored share, no ray: for leaves of few pixels (leaf_flecks.h)
 };
 
 struct RenderRequest {

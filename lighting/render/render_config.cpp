@@ -35,7 +35,17 @@ std::string to_string(RenderMode mode) {
   return mode == RenderMode::kPathTraced ? "path_traced" : "light_map";
 }
 
-std::string to_string(LeafSun sun) { return sun == LeafSun::kStored ? "stored" : "traced"; }
+std::string to_string(LeafSun sun) {
+  switch (sun) {
+    case LeafSun::kStored:
+      return "stored";
+    case LeafSun::kTile:
+      return "tile";
+    case LeafSun::kTraced:
+      break;
+  }
+  return "traced";
+}
 std::string to_string(GroundCover ground) { return ground == GroundCover::kGrass ? "grass" : "litter"; }
 std::string to_string(ToneCurve curve) { return curve == ToneCurve::kFilmic ? "filmic" : "linear"; }
 
@@ -50,14 +60,19 @@ RenderRequest picture_request(const RenderSettings& settings, const Camera& came
   return {camera, light, settings.look, settings.effort, settings.leaf_sun, settings.detail};
 }
 
+LeafSun leaf_sun_named(const std::string& word, const std::string& where) {
+  for (const LeafSun sun : {LeafSun::kTraced, LeafSun::kStored, LeafSun::kTile})
+    if (word == to_string(sun)) return sun;
+  throw_invalid(where, "is '" + word + "'", "traced, stored or tile");
+}
+
 RenderSettings read_render_settings(const ConfigTable& table) {
   RenderSettings s;
   s.mode = render_mode_named(table.text_or("mode", "light_map"), table.where("mode"));
   s.effort.noise = table.number_or("noise", 0.0, {0.0, 1.0});
   s.effort.max_samples_per_pixel =
       static_cast<int>(table.integer_or("max_samples_per_pixel", 4096, {1, 1 << 20}));
-  s.leaf_sun = table.choice_or("leaf_sun", "traced", {"traced", "stored"}) == "stored" ? LeafSun::kStored
-                                                                                       : LeafSun::kTraced;
+  s.leaf_sun = leaf_sun_named(table.text_or("leaf_sun", "traced"), table.where("leaf_sun"));
   s.detail = picture_detail_named(table.text_or("detail", "full"), table.where("detail"));
   s.detail.tolerance = table.number_or("detail_tolerance", s.detail.tolerance, {1e-6, 1.0});
   s.look.outline = read_outline(table);

@@ -11,9 +11,11 @@ std::string to_string(RenderMode mode);  // "light_map", "path_traced"
 // Throws Error(kInvalidInput) at `where` for another word.
 RenderMode render_mode_named(const std::string& word, const std::string& where);
 
-std::string to_string(LeafSun sun);         // "stored", "traced"
+std::string to_string(LeafSun sun);         // "stored", "traced", "tile"
 std::string to_string(GroundCover ground);  // "litter", "grass"
 std::string to_string(ToneCurve curve);     // "linear", "filmic"
+// Throws likewise.
+LeafSun leaf_sun_named(const std::string& word, const std::string& where);
 
 struct RenderSettings {
   RenderMode mode = RenderMode::kLightMap;
@@ -28,8 +30,8 @@ struct RenderSettings {
 RenderRequest picture_request(const RenderSettings& settings, const Camera& camera,
                               const Illumination& light);
 
-// Keys: mode ("light_map", "path_traced"), noise, max_samples_per_pixel, leaf_sun ("traced", "stored"),
-// detail ("full", "auto", "pruned_4", "pruned_16", "pruned_64"), detail_tolerance,
+// Keys: mode ("light_map", "path_traced"), noise, max_samples_per_pixel, leaf_sun ("traced", "stored",
+// "tile"), detail ("full", "auto", "pruned_4", "pruned_16", "pruned_64"), detail_tolerance,
 // leaf_outline ("by_species", "as_modelled", "ovate", "lobed", "needle"), patterns, leaf_gloss,
 // ground ("litter", "grass"), gloss_exponent, bark_width_m, tone ("linear", "filmic"), exposure_stops, and
 // [[render.textures]]: material, leaf_alpha, leaf_reflectance, leaf_thickness, leaf_normal, bark (image

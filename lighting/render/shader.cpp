@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lighting/render/leaf_flecks.h"
 #include "lighting/trace/surface_sampler.h"
 
 namespace sunfleck {
@@ -33,8 +34,10 @@ Vec3 Shader::leaf_seen(const RayHit& hit, const Vec3& to_viewer, PathSamples& nu
   const Surface s = parts_.surfaces.at(hit);
   const auto sun_at = numbers.next();
   if (parts_.leaf_sun == LeafSun::kStored) return leaf_sunlit_as_stored(hit, s, to_viewer);
+  const Vec2 of_disc(sun_at[0], sun_at[1]);
   return leaf_lit(hit, s, [&](const FaceLight& face) { return diffuse(face); }) +
-         sun_scattered(hit, s, to_viewer, {sun_at[0], sun_at[1]});
+         (parts_.leaf_sun == LeafSun::kTile ? sun_flecked(hit, s, to_viewer, of_disc)
+                                            : sun_scattered(hit, s, to_viewer, of_disc));
 }
 
 // Its gloss as if all of it came from the middle of the disc.
@@ -139,6 +142,14 @@ Vec3 Shader::sun_scattered(const RayHit& hit, const Surface& surface, const Vec3
   if (share == Vec3(0.0) || parts_.scene.occluded(hit.on_original_m, to_sun, start_from(hit, cosine > 0.0)))
     return Vec3(0.0);
   return share * parts_.light.beam_w_m2();
+}
+
+// As sun_scattered on a leaf, whose tile says whether the sun gets there.
+Vec3 Shader::sun_flecked(const RayHit& hit, const Surface& surface, const Vec3& to_viewer,
+                         const Vec2& number) const {
+  if (!parts_.light.has_beam() || !parts_.flecks->lit(hit, element_of(hit))) return Vec3(0.0);
+  const Vec3 to_sun = parts_.light.towards_sun(number);
+  return scattering(surface, to_sun, to_viewer) * cosine_factor(surface, to_sun) * parts_.light.beam_w_m2();
 }
 
 }  // namespace sunfleck

@@ -3,7 +3,8 @@
 // Leaves: bi-Lambertian, from the stored irradiance of the element seen:
 //   seen from the front  L = (r_f E_front + t_b E_back) / pi, from the back likewise, a shoot: mean of both.
 // Sky and scattered light are constant over the element; sunlight is that too (LeafSun::kStored) or asked by
-// one shadow ray from the place seen (kTraced). Scattered light has the colour of MeanLight.
+// one shadow ray from the place seen (kTraced) or read from a tile (kTile, leaf_flecks.h). Scattered light
+// has the colour of MeanLight.
 // Wood and ground have no stored light. L = albedo / pi * (sun through one shadow ray + what one
 // cosine-distributed ray meets within gather_reach_m (beyond: sky or ground): the sky, leaves with their
 // stored light, and wood or ground in the mean light of all wood and ground, mean_light.h; ground beyond the
@@ -21,6 +22,8 @@
 
 namespace sunfleck {
 
+class LeafFlecks;
+
 // What shading needs to know. All must outlive the shader; sizes of map and forest match.
 struct ShadingParts {
   const PictureScene& scene;
@@ -31,6 +34,7 @@ struct ShadingParts {
   PictureColour colour;
   LeafSun leaf_sun = LeafSun::kTraced;
   double gather_reach_m = std::numeric_limits<double>::infinity();  // seen_trees.h
+  const LeafFlecks* flecks = nullptr;                               // for kTile under a sun
 };
 
 // Const and safe from many threads.
@@ -69,6 +73,8 @@ class Shader {
                      const Vec2& number) const;
   Vec3 beyond_reach(const Vec3& origin_m, const Vec3& direction) const;
   Vec3 off_ground(const RayHit& hit) const;
+  Vec3 sun_flecked(const RayHit& hit, const Surface& surface, const Vec3& to_viewer,
+                   const Vec2& number) const;
   Vec3 total(const FaceLight& light) const;
 
   ShadingParts parts_;

@@ -31,8 +31,8 @@ void run_light(const LightOptions& options, const RunControl& control);
 
 struct RenderOptions {
   std::filesystem::path forest, scene, light_map, png, exr;
-  std::string mode;      // empty: as the scene file says
-  double far_light = 0;  // path-traced: share of light that trees left in the file may cost
+  std::string mode, leaf_sun;  // empty: as the scene file says
+  double far_light = 0;        // path-traced: share of light that trees left in the file may cost
 };
 void run_render(const RenderOptions& options, const RunControl& control);
 
@@ -75,6 +75,8 @@ struct ExportOptions {
   std::filesystem::path forest, output;
   std::string format;  // obj, ply, gltf, qsm, leaves, trees; empty: by extension
   std::size_t prototype = 0;
+  std::filesystem::path billboards;  // a folder; then neither output nor format
+  int planes = 260, atlas_px = 2048;
 };
 void run_export(const ExportOptions& options, const RunControl& control);
 

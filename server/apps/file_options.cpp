@@ -40,18 +40,26 @@ void add_files(CLI::App& app, InfoOptions& info, ImportOptions& in, ExportOption
 
   c = app.add_subcommand("export", "Write a forest, a prototype or the tree list in a format others read");
   c->add_option("forest", out.forest, "Forest (.vdb)")->required();
-  c->add_option("-o,--output", out.output, "File to write")->required();
+  CLI::Option* output = c->add_option("-o,--output", out.output, "File to write");
   c->add_option("--format", out.format,
                 "gltf (all trees, instanced), obj, ply, qsm (cylinders, CSV) or leaves (leaf list) of one "
                 "prototype, or "
                 "trees (CSV); default: by extension .glb, .obj, .ply, else obj")
       ->check(CLI::IsMember({"gltf", "obj", "ply", "qsm", "leaves", "trees"}));
   c->add_option("--prototype", out.prototype, "Number of the prototype, from 0")->capture_default_str();
+  c->add_option(
+       "--billboards", out.billboards,
+       "Folder: the prototype's foliage as textured planes for real-time viewers, glTF with PNG, and the "
+       "hash, list and leaf textures with their description")
+      ->excludes(output);
+  c->add_option("--planes", out.planes, "Billboards: how many planes, 1 to 4096")->capture_default_str();
+  c->add_option("--atlas", out.atlas_px, "Billboards: side of the picture in texels")->capture_default_str();
   c->footer(
       "Examples:\n  sunfleck export stand.vdb --prototype 2 -o beech.obj\n"
       "  sunfleck export stand.vdb -o stand.glb\n"
       "  sunfleck export stand.vdb --format qsm --prototype 0 -o cylinders.csv\n"
-      "  sunfleck export stand.vdb --format trees -o trees.csv");
+      "  sunfleck export stand.vdb --format trees -o trees.csv\n"
+      "  sunfleck export stand.vdb --prototype 2 --billboards beech");
 }
 
 }  // namespace sunfleck

@@ -58,6 +58,10 @@ void add_render(CLI::App& app, RenderOptions& o) {
        "--far-light", o.far_light,
        "Path-traced: share of a surface's light that far trees may be left out for (0: none, to 0.5)")
       ->check(CLI::Range(0.0, 0.5));
+  c->add_option("--leaf-sun", o.leaf_sun,
+                "light_map: sunlight on leaves traced, stored (even over a leaf) or tile (sunflecks without "
+                "rays); left out: as the scene file's [render] says")
+      ->check(CLI::IsMember({"traced", "stored", "tile"}));
   c->add_option("--png", o.png, "Picture to write (.png, sRGB)");
   c->add_option("--exr", o.exr,
                 "Layers to write (.exr: RGB, depth, normal, instance id, irradiance, standard error)");

@@ -6,6 +6,7 @@
 
 #include "lighting/map/light_map_file.h"
 #include "lighting/map/stand_netcdf.h"
+#include "lighting/render/billboard_export.h"
 #include "server/apps/commands.h"
 #include "server/apps/outputs.h"
 #include "server/apps/scene_file.h"
@@ -174,6 +175,19 @@ void note_left_out(std::size_t left_out, const char* what) {
   if (left_out > 0) std::printf("note         %s %s and were left out\n", grouped(left_out).c_str(), what);
 }
 
+void export_cloud(const Forest& forest, const ExportOptions& o, const RunControl& control) {
+  BillboardExportOptions options;
+  options.cloud.clusters.planes = o.planes;
+  options.atlas_px = o.atlas_px;
+  const BillboardExport made = export_billboards(forest, o.prototype, options, o.billboards, control);
+  std::printf("billboards   %s leaves on %s planes; cloud %.2f MB; picture %d x %d, a texel is %.1f mm\n",
+              grouped(made.leaves).c_str(), grouped(made.planes).c_str(),
+              static_cast<double>(made.cloud_bytes) / 1e6, o.atlas_px, o.atlas_px, 1e3 * made.texel_m);
+  std::printf("cutoff       alpha %.3f keeps %.1f %% of what leaves cover in the picture\n",
+              made.alpha_cutoff, 100 * made.cover_kept);
+  std::printf("wrote        %s\n", o.billboards.c_str());
+}
+
 void export_whole(const Forest& forest, const std::filesystem::path& path, const RunControl& control) {
   const GltfReport report = export_gltf(forest, path, control);
   std::printf("glTF         %s meshes, %s trees, %s triangles, %.1f MB\n", grouped(report.meshes).c_str(),
@@ -215,7 +229,10 @@ void run_import(const ImportOptions& o) {
 }
 
 void run_export(const ExportOptions& o, const RunControl& control) {
+  if (o.output.empty() && o.billboards.empty())
+    throw_invalid("-o", "is missing", "the file to write, or --billboards with a folder");
   const Forest forest = load_forest(o.forest);
+  if (!o.billboards.empty()) return export_cloud(forest, o, control);
   const std::string format = export_format(o);
   if (format == "gltf")
     export_whole(forest, o.output, control);

@@ -83,6 +83,7 @@ void run_render(const RenderOptions& o, const RunControl& control) {
   if (!scene.light) throw_invalid(o.scene.string(), "has no [light] table", "the sun and sky of the picture");
   RenderSettings settings = scene.render.value_or(RenderSettings{});
   if (!o.mode.empty()) settings.mode = render_mode_named(o.mode, "--mode");
+  if (!o.leaf_sun.empty()) settings.leaf_sun = leaf_sun_named(o.leaf_sun, "--leaf-sun");
   settings.effort.keep_when_stopped = settings.mode == RenderMode::kPathTraced;
   if (settings.look.shoots != ShootForm::kVolume)
     settings.look.needles = needle_kinds(SpeciesLibrary::load(find_configs({}) / "species"));

@@ -40,8 +40,8 @@ int main(int argc, char** argv) {
   if (argc != 3) return 2;
   const sunfleck::Image a = load(argv[1]), b = load(argv[2]);
   const auto d = sunfleck::image_difference(a, b);
-  std::printf("bias %+.2f %%, mean absolute difference %.2f %%, SSIM %.4f, noise %.2f / %.2f %%\n",
-              100 * d.bias, 100 * d.mean_absolute, d.ssim, 100 * sunfleck::image_noise(a),
+  std::printf("bias %+.2f %%, mean absolute difference %.2f %%, SSIM %.4f, FLIP %.4f, noise %.2f / %.2f %%\n",
+              100 * d.bias, 100 * d.mean_absolute, d.ssim, d.flip, 100 * sunfleck::image_noise(a),
               100 * sunfleck::image_noise(b));
   const char* names[] = {"leaves", "wood", "ground", "sky"};
   double sum_a[4][3] = {}, sum_b[4][3] = {}, apart[4] = {}, count[4] = {};
