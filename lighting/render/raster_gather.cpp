@@ -12,7 +12,7 @@ namespace {
 constexpr double kGroundSpacing_m = 0.75, kStemSpacing_m = 0.75;
 constexpr double kSpacingPerMetre = 0.04;  // of the ground's nodes, at a distance from the camera
 constexpr double kThickest_m = 0.03, kLeafReach_m = 2.0;
-constexpr std::uint32_t kGroundRays = 64, kStemRays = 24;
+constexpr std::uint32_t kGroundRays = 48, kStemRays = 16;
 constexpr int kAround = 4;
 
 std::uint64_t key_of(std::uint64_t kind, std::uint64_t a, std::uint64_t b, std::uint64_t c) {

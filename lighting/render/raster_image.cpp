@@ -11,9 +11,9 @@
 namespace sunfleck {
 namespace {
 
-constexpr std::uint32_t kMostSamplesAtOnce = 16;       // of a pixel, in one chunk of units
+constexpr std::uint32_t kMostSamplesAtOnce = 32;       // of a pixel, in one chunk of units
 constexpr std::size_t kTileSampleRoom = 32768;         // what a fast cache holds
-constexpr std::size_t kBatchSamples = 4u << 20;        // between two looks from the sun
+constexpr std::size_t kBatchSamples = 8u << 20;        // between two looks from the sun
 constexpr std::uint32_t kDiscDirections = 4;           // per chunk of units
 constexpr std::uint64_t kMostCells = 4096;
 constexpr std::size_t kMostTrees = 4'000'000;
@@ -193,7 +193,6 @@ void ChunkPainter::shade(const TileWork& work, std::span<const std::uint8_t> dar
   const std::uint32_t drawn = samples_.drawn();
   std::vector<Group> groups;
   std::vector<std::uint8_t> group_of(drawn);
-  const bool has_disc = parts_.light.has_beam();
   std::size_t first = 0;
   for (std::int32_t y = 0; y < work.tile.height(); ++y)
     for (std::int32_t x = 0; x < work.tile.width(); ++x, first += drawn) {
@@ -212,16 +211,17 @@ void ChunkPainter::shade(const TileWork& work, std::span<const std::uint8_t> dar
         groups[g].place_px += place_of(s);
         group_of[s] = static_cast<std::uint8_t>(g);
       }
+      bool shows_disc = false;
       for (Group& g : groups) {
-        if (g.number == kSkyNumber && has_disc) continue;
         g.light = shader_.light_at(g.number, g.place_px / double(g.count));
+        shows_disc = shows_disc || (g.number == kSkyNumber && shader_.near_disc(g.place_px / double(g.count)));
       }
       std::uint32_t s = 0;
       for (std::uint32_t unit = samples_.first_unit; unit < samples_.end_unit; ++unit) {
         Vec3 sum(0.0);
         for (std::uint32_t i = 0; i < samples_.per_unit; ++i, ++s) {
           const Group& g = groups[group_of[s]];
-          if (g.number == kSkyNumber && has_disc)
+          if (shows_disc && g.number == kSkyNumber)
             sum += shader_.sky_at(place_of(s));
           else
             sum += dark[first + s] != 0 ? g.light.rest : g.light.rest + g.light.sun;
@@ -278,7 +278,7 @@ Image rasterise(const RasterScene& raster, const ShadingParts& parts, const Shad
                 const HitLayers& layers, const RunControl& control, const TileSink& tiles) {
   GatheredLight gathered(parts, shader, raster.figures);
   const CameraRays rays(camera);
-  const RasterShader raster_shader(parts, shader, gathered, raster.trees, rays, raster.frame);
+  const RasterShader raster_shader(parts, shader, gathered, raster.trees, rays, raster.frame, light);
   ChunkPainter painter(raster, parts, raster_shader, rays, camera, layers, control);
   const auto per_unit = static_cast<std::uint32_t>(plan.samples_per_unit);
   const std::uint32_t units_at_once = std::max(1u, kMostSamplesAtOnce / per_unit);

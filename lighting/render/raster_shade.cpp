@@ -102,6 +102,13 @@ Vec3 RasterShader::sky_at(const Vec2& place_px) const {
   return parts_.light.background(rays_.through(place_px.x, place_px.y)->direction);
 }
 
+bool RasterShader::near_disc(const Vec2& place_px) const {
+  if (!parts_.light.has_beam() || light_.sun_half_angle_rad == 0.0) return false;
+  const double pixel_rad = frame_.perspective ? 1.5 / frame_.px_per_unit : 0.0;
+  const Vec3 direction = rays_.through(place_px.x, place_px.y)->direction;
+  return glm::length(direction - light_.to_sun) < 1.01 * light_.sun_half_angle_rad + pixel_rad;
+}
+
 Shader::SunAndRest RasterShader::light_at(std::uint32_t number, const Vec2& place_px) const {
   const auto ray = rays_.through(place_px.x, place_px.y);
   if (number == kSkyNumber) return {parts_.light.background(ray->direction), Vec3(0.0)};

@@ -11,8 +11,15 @@ class RasterShader {
  public:
   // All must outlive it. `frame` of the whole picture.
   RasterShader(const ShadingParts& parts, const Shader& shader, GatheredLight& gathered,
-               const SeenTrees& trees, const CameraRays& rays, const RasterFrame& frame)
-      : parts_(parts), shader_(shader), gathered_(gathered), trees_(trees), rays_(rays), frame_(frame) {}
+               const SeenTrees& trees, const CameraRays& rays, const RasterFrame& frame,
+               const Illumination& light)
+      : parts_(parts),
+        shader_(shader),
+        gathered_(gathered),
+        trees_(trees),
+        rays_(rays),
+        frame_(frame),
+        light_(light) {}
 
   // What a ray through the place meets if it meets that figure; where it misses it by rounding, the figure's
   // nearest point. Of a shoot its axis.
@@ -20,6 +27,8 @@ class RasterShader {
   // Radiance towards the camera without traced sunlight, and what the sun adds where it is seen.
   Shader::SunAndRest light_at(std::uint32_t number, const Vec2& place_px) const;
   Vec3 sky_at(const Vec2& place_px) const;
+  // Whether a pixel there may show a part of the sun's disc.
+  bool near_disc(const Vec2& place_px) const;
 
  private:
   RayHit ground_hit(const CameraRay& ray) const;
@@ -33,6 +42,7 @@ class RasterShader {
   const SeenTrees& trees_;
   const CameraRays& rays_;
   const RasterFrame& frame_;
+  const Illumination& light_;
 };
 
 }  // namespace sunfleck

@@ -14,6 +14,7 @@ struct RenderScene {
   PictureLook look = plain_look();
   RenderEffort effort{};
   LeafSun leaf_sun = LeafSun::kStored;
+  Visibility visibility = Visibility::kAuto;
 
   RenderScene() {
     forest.materials = {{"leaf", {{"NIR", 0.5, 0.5, 1.0}, {"PAR", 0.5, 0.5, 1.0}}}};
@@ -45,7 +46,7 @@ struct RenderScene {
 
   Image render(const Camera& camera, const RunControl& control = {}, const TileSink& tiles = {}) const {
     return sunfleck::render(forest, OpticsTable(forest, optics_request), map(),
-                            {camera, light, look, effort, leaf_sun}, control, tiles);
+                            {camera, light, look, effort, leaf_sun, visibility}, control, tiles);
   }
   Image render_path_traced(const Camera& camera, const RunControl& control = {}) const {
     return sunfleck::render_path_traced(forest, OpticsTable(forest, optics_request),
