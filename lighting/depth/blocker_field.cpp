@@ -81,6 +81,14 @@ class BlockerFieldBuilder {
     for_each_element([&](std::size_t i, const WorldElement& e) { field_.elements_[i] = flattened(e); });
   }
 
+  double usual_cell_m(const Vec3& size_m, const BlockerFieldOptions& options) const {
+    const double extent_m = std::max({size_m.x, size_m.y, size_m.z});
+    const double cell_m = leaf_cell_size(extent_m, field_.mean_side_m_);
+    if (!(options.most_cells_per_element > 0.0) || field_.elements_.empty()) return cell_m;
+    const double cells = options.most_cells_per_element * static_cast<double>(field_.elements_.size());
+    return std::max(cell_m, std::min(extent_m / 32.0, std::cbrt(size_m.x * size_m.y * size_m.z / cells)));
+  }
+
   void choose_grid(const BlockerFieldOptions& options) {
     Box box = wood_box();
     double area = 0.0, weighted_side = 0.0;
@@ -91,7 +99,7 @@ class BlockerFieldBuilder {
     }
     const double extent = std::max({box.size().x, box.size().y, box.size().z});
     field_.mean_side_m_ = area > 0.0 ? weighted_side / area : (extent > 0.0 ? extent / 64.0 : 1.0);
-    const double cell = options.cell_m > 0.0 ? options.cell_m : leaf_cell_size(extent, field_.mean_side_m_);
+    const double cell = options.cell_m > 0.0 ? options.cell_m : usual_cell_m(box.size(), options);
     const std::uint64_t worthwhile = std::max<std::uint64_t>(8ull << 20, 512 * field_.elements_.size());
     const std::uint64_t most =
         options.keep_cell ? options.max_cells : std::min(options.max_cells, worthwhile);

@@ -65,6 +65,9 @@ struct BlockerFieldOptions {
   // Only max_cells limits the number of cells.
   bool keep_cell = false;
   double margin_m = 0;  // around everything, in a scene without a period
+  // Where leaf_cell_size() gives cells of 4 sides: wider ones, up to 1/32 of the extent, until there are no
+  // more than so many per element; 0: any number.
+  double most_cells_per_element = 0;
   std::optional<GridFrame> frame =
       std::nullopt;  // instead of grid_frame() of the forest, which looks at every leaf
 };

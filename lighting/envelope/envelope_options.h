@@ -50,7 +50,9 @@ struct EnvelopeFullOptions {
   EnvelopeWeights weights = EnvelopeWeights::kCosine;
   EnvelopeOwnLeaf own_leaf = EnvelopeOwnLeaf::kRemoved;
   EnvelopeBorder border = EnvelopeBorder::kByScene;
-  double cell_m = 0;  // of the leaf-area grid; 0: clamp(extent / 32, 2 side, 4 side)
+  // Of the leaf-area grid; 0: clamp(extent / 32, 2 side, 4 side), and of a tree that stands alone wider
+  // than 4 sides where there would be more than 0.65 cells per leaf (200,000 leaves and more).
+  double cell_m = 0;
 };
 
 std::string to_string(EnvelopeSun value);      // published, marched

@@ -12,6 +12,9 @@ namespace envelope {
 
 namespace {
 
+// In the box around a tree that stands alone, as for the grid method: crowns of 200,000 leaves and more get
+// cells wider than 4 sides, finer against the crown than those of smaller ones. Marches stay short.
+constexpr double kMostCellsPerLeaf = 0.65;
 constexpr std::size_t kMostGridBytes = 512ull << 20;  // of the grids kept for single points
 
 void require_leaves(const ForestIndex& index) {
@@ -121,8 +124,11 @@ EnvelopePrepared prepare_envelope(const Forest& forest, const EnvelopeFullOption
   parts->forest_hash = content_hash(forest);
   {
     const StageTimer timer(times, "leaf-area grid");
-    parts->field =
-        std::make_unique<const BlockerField>(forest, BlockerFieldOptions{.cell_m = options.cell_m}, control);
+    parts->field = std::make_unique<const BlockerField>(
+        forest,
+        BlockerFieldOptions{.cell_m = options.cell_m,
+                            .most_cells_per_element = forest.instances.size() == 1 ? kMostCellsPerLeaf : 0.0},
+        control);
     parts->set = forest.period ? layered_sectors(options.directions, forest.terrain.normal())
                                : cubic_sectors(options.directions);
     parts->ground = GroundCells(forest, *parts->field);

@@ -210,6 +210,22 @@ TEST(Wood, MeshesAreClosedSurfaces) {
   EXPECT_NEAR(area, 0.5, 1e-7);
 }
 
+// 4,000 leaves of 4 mm in a ball of 1 m: cells of 4 sides (16 mm) by the rule alone; 16 cells per leaf are a
+// twentieth of the box (8 m3 / 64,000); 1/32 of the box where fewer are asked for. Each to the fit of whole
+// cells into the box and the leaves' own draw.
+TEST(CellsPerElement, WidenCellsOfManyLeaves) {
+  const Forest forest = generated_crown({.leaves = 4000, .crown_lai = 0.02});
+  const auto cell_m = [&](double most) {
+    return BlockerField(forest, BlockerFieldOptions{.most_cells_per_element = most}, {})
+        .layout()
+        .mean_cell_m();
+  };
+  EXPECT_NEAR(cell_m(0), 0.016, 0.001);
+  EXPECT_NEAR(cell_m(16), 0.05, 0.002);
+  EXPECT_NEAR(cell_m(0.01), 2.0 / 32, 0.003);
+  EXPECT_EQ(cell_m(1e6), cell_m(0));
+}
+
 TEST(Ground, EndsWhatGoesDownAndHidesWhatLiesBelow) {
   Forest forest =
       forest_of({leaf({0, 0, 1}, {0.1f, 0, 0}, {0, 0.1f, 0}), leaf({0, 0, -1}, {0.1f, 0, 0}, {0, 0.1f, 0})});
