@@ -68,12 +68,18 @@ void set_transform(RTCGeometry geometry, const Instance& instance, const SceneCo
 struct Occupied {
   double lowest_m = 0, highest_m = 0, reach_m = 0;
 };
-Occupied occupied(const Forest& forest, const Surroundings& around, const Vec3& centre_m) {
+Occupied occupied(const Forest& forest, const std::vector<std::vector<PrototypeId>>& casts,
+                  const Surroundings& around, const Vec3& centre_m) {
   const std::vector<Box> boxes = prototype_boxes(forest);
   Box heights;  // x: heights; y, z unused
   double reach_m = 0.0;
-  for (const Instance& instance : forest.instances) {
-    const Box& box = boxes[instance.prototype.value];
+  for (std::size_t i = 0; i < forest.instances.size(); ++i) {
+    const Instance& instance = forest.instances[i];
+    Box box = casts.empty() ? boxes[instance.prototype.value] : Box{};
+    for (const std::vector<PrototypeId>& cast : casts) {
+      const Box& other = boxes[cast[i].value];
+      if (!other.empty()) box.include(other.lo), box.include(other.hi);
+    }
     if (box.empty()) continue;
     for (const Vec3& p : placed_corners(instance, box, centre_m)) {
       heights.include({around.height_above_ground(p), 0, 0});
@@ -110,7 +116,7 @@ Surroundings surroundings_of(const Forest& forest, const RayScene::Options& opti
     s.cell_lo = forest.period->origin_m - Vec2(centre_m);
     s.cell_size = forest.period->size_m;
   }
-  const Occupied space = occupied(forest, s, centre_m);
+  const Occupied space = occupied(forest, options.casts, s, centre_m);
   const double width_m = s.periodic ? std::max(s.cell_size.x, s.cell_size.y) : space.reach_m;
   const Vec3 stated = options.coordinates.size();
   s.rounding_m = 4e-7 * (options.coordinates.empty() ? std::max(width_m, space.highest_m - space.lowest_m)
