@@ -60,7 +60,7 @@ struct Image {
                                        // 0 elsewhere, and everywhere in path-traced pictures
   int samples_per_pixel = 0;           // taken, of the pixel with fewest
   Visibility visibility = Visibility::kRays;  // that was used: rays or raster
-  bool stopped = false;                // before it was done, see RenderEffort
+  bool stopped = false;                       // before it was done, see RenderEffort
 };
 // Standard error of a pixel, root mean square over the picture, relative to its mean brightness. Without the
 // brightest hundredth of the pixels, which a picture shows as white: the sun's disc would be all of it.

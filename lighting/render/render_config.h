@@ -16,10 +16,12 @@ struct RenderSettings {
   PictureLook look;
   RenderEffort effort;
   LeafSun leaf_sun = LeafSun::kTraced;
+  Visibility visibility = Visibility::kAuto;
   ToneMap tone;
 };
 
 // Keys: mode ("light_map", "path_traced"), noise, max_samples_per_pixel, leaf_sun ("traced", "stored"),
+// visibility ("auto", "rays", "raster"; of pictures from a light map),
 // leaf_outline ("by_species", "as_modelled", "ovate", "lobed", "needle"), patterns, leaf_gloss,
 // ground ("litter", "grass"), gloss_exponent, bark_width_m, tone ("linear", "filmic"), exposure_stops, and
 // [[render.textures]]: material, leaf_alpha, leaf_reflectance, leaf_thickness, leaf_normal, bark (image

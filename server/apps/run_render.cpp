@@ -77,8 +77,11 @@ void run_render(const RenderOptions& o, const RunControl& control) {
   if (!o.mode.empty()) settings.mode = render_mode_named(o.mode, "--mode");
   settings.effort.keep_when_stopped = settings.mode == RenderMode::kPathTraced;
   const RenderRequest request{scene.camera ? *scene.camera : default_camera(forest_bounds(forest)),
-                              checked(scene.light->light, scene.light->optics.bands.size()), settings.look,
-                              settings.effort, settings.leaf_sun};
+                              checked(scene.light->light, scene.light->optics.bands.size()),
+                              settings.look,
+                              settings.effort,
+                              settings.leaf_sun,
+                              settings.visibility};
   const auto began = std::chrono::steady_clock::now();
   const Image image = make_image(o, scene, forest, settings.mode, request, control);
   const std::chrono::duration<double> wall_s = std::chrono::steady_clock::now() - began;
