@@ -1,6 +1,7 @@
 // Pictures from a light map by rays and by rasterising, and path-traced ones, of a scene file: their CPU time
 // and how far they are from converged ones.
-//   lighting_render_raster forest.vdb light.nc scene.toml [width [converged samples [folder]]]
+//   lighting_render_raster forest.vdb light.nc scene.toml [width [converged samples [folder [samples]]]]
+// With 0 converged samples: times alone.
 // Prints, for 4, 16 and 64 samples per pixel, the median CPU time of three runs, the mean absolute difference
 // to the converged path-traced picture and SSIM, then time ratios: at the same samples, and at equal error
 // (the path tracer's samples for the error of the picture compared, by its error falling as the root of
@@ -120,15 +121,18 @@ int run(int argc, char** argv) {
     camera.height_px = camera.height_px * std::atoi(argv[4]) / camera.width_px;
     camera.width_px = std::atoi(argv[4]);
   }
+  if (argc > 7) camera.samples_per_pixel = std::atoi(argv[7]);
   const int samples = argc > 5 ? std::atoi(argv[5]) : 512;
   const Scene scene{forest,
                     map,
                     optics,
                     {camera, checked(light.light, optics.band_count()), look.look, {}, look.leaf_sun},
                     look.tone};
-  if (samples == 0) {  // for a profiler
-    const Timed t = timed(scene, Way::kRaster, camera.samples_per_pixel);
-    std::printf("raster %d samples: %.3f s CPU\n", camera.samples_per_pixel, t.cpu_s);
+  if (samples == 0) {  // times alone, at the scene's samples; paths from four samples
+    const Timed raster = timed(scene, Way::kRaster, camera.samples_per_pixel);
+    const double paths_s = timed(scene, Way::kPaths, 4).cpu_s * camera.samples_per_pixel / 4;
+    std::printf("%d x %d, %d samples: raster %.3f s CPU, paths %.2f s, %.1f times\n", camera.width_px,
+                camera.height_px, camera.samples_per_pixel, raster.cpu_s, paths_s, paths_s / raster.cpu_s);
     return 0;
   }
   const Image rays = converged(scene, Way::kRays, samples), paths = converged(scene, Way::kPaths, samples);

@@ -139,13 +139,13 @@ TEST(RasterPicture, StatesItsNoise) {
 TEST(RasterPicture, NoiseTargetTellsEveryTileInEveryRound) {
   RenderScene scene = test::traced_bush();
   const LightMap map = test::reference_map(scene);
-  scene.effort.noise = 0.03;
+  scene.effort.noise = 0.01;
   Camera camera = bush_view(1);
   camera.width_px = 70;
   int tiles = 0;
   const Image image = picture(scene, map, camera, Visibility::kRaster, {},
                               [&](const Image&, int, int, int, int) { ++tiles; });
-  EXPECT_LE(image_noise(image), 0.03);
+  EXPECT_LE(image_noise(image), 0.01);
   EXPECT_GT(image.samples_per_pixel, 4);
   EXPECT_EQ(tiles % 2, 0);
   EXPECT_GT(tiles, 2);
