@@ -22,6 +22,19 @@ const std::vector<Way>& table() {
        [](RenderSettings& s) { s.leaf_sun = LeafSun::kTraced; }},
       {"light_map_stored_sun", "stored light, sun even over a leaf",
        [](RenderSettings& s) { s.leaf_sun = LeafSun::kStored; }},
+      {"light_map_rays", "stored light, rays only",
+       [](RenderSettings& s) { s.visibility = Visibility::kRays; }},
+      {"light_map_raster", "stored light, figures drawn once for many samples",
+       [](RenderSettings& s) { s.visibility = Visibility::kRaster; }},
+      {"light_map_tile", "stored light, sunflecks on leaves from a tile",
+       [](RenderSettings& s) { s.leaf_sun = LeafSun::kTile; }},
+      {"path_traced_detail", "all bounces, far trees with fewer, larger leaves",
+       [](RenderSettings& s) {
+         s.mode = RenderMode::kPathTraced;
+         s.detail.mode = DetailMode::kAuto;
+       }},
+      {"light_map_detail", "stored light, far trees with fewer, larger leaves",
+       [](RenderSettings& s) { s.detail.mode = DetailMode::kAuto; }},
   };
   return kWays;
 }

@@ -21,8 +21,8 @@ class MaterialLook {
   // Factors on a leaf's reflectance and transmittance; mean 1 over the leaf.
   Vec3 leaf_reflect(const Vec2& at) const;
   Vec3 leaf_pass(const Vec2& at) const;
-  // How much of a leaf's pattern is left in the mean over a stretch of it, given in lengths of the leaf: veins
-  // are gone from a seventh on, images from a half on.
+  // How much of a leaf's pattern is left in the mean over a stretch of it, given in lengths of the leaf:
+  // veins are gone from a seventh on, images from a half on.
   double leaf_pattern_left(double stretch) const;
   // Normal in leaf coordinates (along, across, front); unit.
   Vec3 leaf_normal(const Vec2& at) const;

@@ -54,14 +54,15 @@ class FigureDrawing {
 
  private:
   template <class Meet>
-  void for_each_run(const BinBox& box, const RowCuts& cuts, std::uint32_t number,
-                    const OutlineTable* outline, const Meet& meet) {
+  void for_each_run(const BinBox& box, const RowCuts& cuts, std::uint32_t number, const OutlineTable* outline,
+                    const Meet& meet) {
     for (std::int32_t row = box.y0; row < box.y1; ++row) {
       auto lo = 0.0f, hi = static_cast<float>(box.x1 - box.x0);
       cuts.cut(static_cast<float>(row - box.y0), lo, hi);
       const std::int32_t begin = box.x0 + static_cast<std::int32_t>(std::max(0.0f, lo - 1e-3f));
-      const std::int32_t end = box.x0 + static_cast<std::int32_t>(
-                                            std::ceil(std::min(hi + 1e-3f, static_cast<float>(box.x1 - box.x0))));
+      const std::int32_t end =
+          box.x0 +
+          static_cast<std::int32_t>(std::ceil(std::min(hi + 1e-3f, static_cast<float>(box.x1 - box.x0))));
       if (begin >= end) continue;
       PlaceRun run = bins_.run(row, begin, end);
       if (run.count == 0) continue;
@@ -100,8 +101,8 @@ class FigureDrawing {
     });
   }
 
-  // Drawn as a strip through its axis that faces the view: the same silhouette but for the taper (the mean radius)
-  // and slanted ends, and at most its radius too far away.
+  // Drawn as a strip through its axis that faces the view: the same silhouette but for the taper (the mean
+  // radius) and slanted ends, and at most its radius too far away.
   bool is_thin(double widest_m, const PictureExtent& extent) const {
     constexpr double kThinPx = 0.5, kThinForSun_m = 0.01;
     if (!range_.ahead_only) return widest_m < kThinForSun_m;
@@ -114,8 +115,7 @@ class FigureDrawing {
     const double widest = view.scale * std::max(figure.radius, figure.radius + figure.taper * figure.length);
     const Vec3 tip = base + length * axis;
     const Vec3 reach = widest * glm::sqrt(glm::max(Vec3(0), 1.0 - axis * axis)) + 1e-9 * length;
-    const PictureExtent extent =
-        extent_of(frame_, glm::min(base, tip) - reach, glm::max(base, tip) + reach);
+    const PictureExtent extent = extent_of(frame_, glm::min(base, tip) - reach, glm::max(base, tip) + reach);
     const BinBox box = bins_of(extent, bins_.width(), bins_.height());
     if (!extent.seen || box.empty() || bins_.hidden(box, extent.nearness)) return;
     const Vec2 corner(box.x0, box.y0);

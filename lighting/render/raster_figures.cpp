@@ -70,9 +70,8 @@ Ball ball_of(const FlatFigure& f) {
     return {middle, std::max({glm::length(f.centre - middle), glm::length(f.centre + f.u - middle),
                               glm::length(f.centre + f.v - middle)})};
   }
-  const float aside = f.shape == FlatShape::kDisc
-                          ? std::max(glm::length(f.u), glm::length(f.v))
-                          : std::max(glm::length(f.u + f.v), glm::length(f.u - f.v));
+  const float aside = f.shape == FlatShape::kDisc ? std::max(glm::length(f.u), glm::length(f.v))
+                                                  : std::max(glm::length(f.u + f.v), glm::length(f.u - f.v));
   return {f.centre, aside};
 }
 Ball ball_of(const RoundFigure& r) {
@@ -123,10 +122,11 @@ OutlineTable::OutlineTable(const MaterialLook& look) : look_(look), cells_(kSide
       int inside = 0;
       for (int i = 0; i <= kFine; ++i)
         for (int j = 0; j <= kFine; ++j)
-          inside += look.is_inside({2.0 * (x + i / double{kFine}) / kSide - 1.0,
-                                    2.0 * (y + j / double{kFine}) / kSide - 1.0});
-      cells_[static_cast<std::size_t>(y * kSide + x)] =
-          inside == 0 ? kOutside : inside == (kFine + 1) * (kFine + 1) ? kInside : kAsk;
+          inside += look.is_inside(
+              {2.0 * (x + i / double{kFine}) / kSide - 1.0, 2.0 * (y + j / double{kFine}) / kSide - 1.0});
+      cells_[static_cast<std::size_t>(y * kSide + x)] = inside == 0                           ? kOutside
+                                                        : inside == (kFine + 1) * (kFine + 1) ? kInside
+                                                                                              : kAsk;
     }
 }
 
@@ -176,6 +176,12 @@ FigureTable::FigureTable(const PictureScene& scene) {
     split(to.rounds, shoots, to.rounds.size(), kRoundsPerCluster, false, to.clusters);
     to.box = prototype_bounds(from);
   }
+}
+
+std::uint64_t FigureTable::figures() const {
+  std::uint64_t sum = 0;
+  for (const PrototypeFigures& p : prototypes_) sum += p.count();
+  return sum;
 }
 
 std::size_t FigureTable::bytes() const {

@@ -69,6 +69,7 @@ class FigureTable {
     return figure.outline == 0 ? nullptr : &outlines_[figure.outline - 1u];
   }
   std::size_t bytes() const;
+  std::uint64_t figures() const;
 
  private:
   std::vector<PrototypeFigures> prototypes_;

@@ -2,11 +2,11 @@
 //
 // A plane figure c + a u + b v seen through place (x, y): in perspective the place's ray is t (x', y', 1) and
 //   a = (v x c) . r / n . r,  b = (c x u) . r / n . r,  1 / t = n . r / n . c,   r = (x', y', 1), n = u x v
-// (homogeneous rasterising, Olano and Greer 1997): three linear forms over the picture, no division, right for
-// figures that reach behind the camera. Orthographic: a, b and depth are linear themselves.
-// A cone's side or a cylinder: the point of the ray at the base's depth and the ray's direction, each split
-// along the axis, along the normal of axis and view, and across both: six linear forms, then the quadratic.
-// Forms count places from a corner near the figure, so that single precision keeps its digits.
+// (homogeneous rasterising, Olano and Greer 1997): three linear forms over the picture, no division, right
+// for figures that reach behind the camera. Orthographic: a, b and depth are linear themselves. A cone's side
+// or a cylinder: the point of the ray at the base's depth and the ray's direction, each split along the axis,
+// along the normal of axis and view, and across both: six linear forms, then the quadratic. Forms count
+// places from a corner near the figure, so that single precision keeps its digits.
 #pragma once
 
 #include <array>
@@ -27,9 +27,9 @@ struct FlatForms {
 };
 
 struct RoundForms {
-  LinearForm across, beside, along;          // of the ray's point at the depth of the base, m
-  LinearForm run_across, run_beside, rise;   // of the ray's direction, per metre of depth
-  float depth_m = 0;                         // of the base
+  LinearForm across, beside, along;         // of the ray's point at the depth of the base, m
+  LinearForm run_across, run_beside, rise;  // of the ray's direction, per metre of depth
+  float depth_m = 0;                        // of the base
   float radius_m = 0, taper = 0, length_m = 0, extinction_per_m = 0;
 };
 

@@ -18,8 +18,7 @@ RasterFrame camera_frame(const Camera& camera) {
   f.down = -rays.up();
   f.centre_px = {0.5 * camera.width_px, 0.5 * camera.height_px};
   if (f.perspective) {
-    f.px_per_unit =
-        0.5 * camera.height_px / std::tan(0.5 * radians_from_degrees(camera.vertical_fov_deg));
+    f.px_per_unit = 0.5 * camera.height_px / std::tan(0.5 * radians_from_degrees(camera.vertical_fov_deg));
   } else {
     f.px_per_unit = camera.height_px / camera.ortho_height_m;
     f.farthest = -std::numeric_limits<double>::infinity();

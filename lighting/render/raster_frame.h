@@ -52,9 +52,12 @@ struct PictureExtent {
 inline PictureExtent extent_of(const RasterFrame& f, const Vec3& lo, const Vec3& hi) {
   constexpr double kAll = 1e9;
   if (!f.perspective) {
-    return {f.centre_px.x + f.px_per_unit * lo.x, f.centre_px.y + f.px_per_unit * lo.y,
-            f.centre_px.x + f.px_per_unit * hi.x, f.centre_px.y + f.px_per_unit * hi.y,
-            -lo.z,                                -hi.z <= f.nearest};
+    return {f.centre_px.x + f.px_per_unit * lo.x,
+            f.centre_px.y + f.px_per_unit * lo.y,
+            f.centre_px.x + f.px_per_unit * hi.x,
+            f.centre_px.y + f.px_per_unit * hi.y,
+            -lo.z,
+            -hi.z <= f.nearest};
   }
   if (!(hi.z > 0.0)) return {};
   // What reaches through the plane of the camera may be seen anywhere.

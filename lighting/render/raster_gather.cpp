@@ -85,7 +85,8 @@ void GatheredLight::share_stems(const Prototype& prototype) {
     if (glm::length(Vec3(s.to_m) - Vec3(s.from_m)) > kStemSpacing_m) continue;
     const Vec3 cube = glm::floor(0.5 * (Vec3(s.from_m) + Vec3(s.to_m)) / kStemSpacing_m);
     const auto whole = [](double v) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(v)); };
-    shares.back() = first.try_emplace(key_of(whole(cube.x), whole(cube.y), whole(cube.z), 0), i).first->second;
+    shares.back() =
+        first.try_emplace(key_of(whole(cube.x), whole(cube.y), whole(cube.z), 0), i).first->second;
   }
 }
 
@@ -128,9 +129,10 @@ Vec3 GatheredLight::on_ground(const Vec3& p, double pixel_m, double distance_m) 
   const double wanted = std::max({2.0 * pixel_m, 0.1 * beside, kSpacingPerMetre * distance_m});
   double level = std::max(0.0, std::floor(std::log2(wanted / lattice_m_.x)));
   if (forest.period)  // at least eight steps
-    level = std::min(level, std::max(0.0, std::floor(std::log2(std::min(forest.period->size_m.x / lattice_m_.x,
-                                                                        forest.period->size_m.y / lattice_m_.y) /
-                                                               8.0))));
+    level =
+        std::min(level, std::max(0.0, std::floor(std::log2(std::min(forest.period->size_m.x / lattice_m_.x,
+                                                                    forest.period->size_m.y / lattice_m_.y) /
+                                                           8.0))));
   const Vec2 spacing = lattice_m_ * std::exp2(level);
   const auto coarseness = static_cast<std::uint64_t>(level);
   const Vec2 origin = forest.period ? forest.period->origin_m : Vec2(0.0);
@@ -149,8 +151,8 @@ Vec3 GatheredLight::on_ground(const Vec3& p, double pixel_m, double distance_m) 
     const Node node =
         nodes_.get(key_of(coarseness, static_cast<std::uint64_t>(x), static_cast<std::uint64_t>(y), 0),
                    [&] { return ground_node(coarseness, x, y, spacing); });
-    const double weight = node.share * ((i & 1) != 0 ? rest.x : 1.0 - rest.x) *
-                          ((i >> 1) != 0 ? rest.y : 1.0 - rest.y);
+    const double weight =
+        node.share * ((i & 1) != 0 ? rest.x : 1.0 - rest.x) * ((i >> 1) != 0 ? rest.y : 1.0 - rest.y);
     sum += weight * node.irradiance_w_m2;
     weights += weight;
   }
@@ -176,9 +178,7 @@ Vec3 GatheredLight::on_wood(const RayHit& hit) {
   // Of a mesh: per triangle and side.
   return nodes_
       .get(key_of(hit.instance, hit.local, hit.front, 3),
-           [&] {
-             return gather(hit, key_of(hit.instance, hit.local, hit.front, 4), kStemRays);
-           })
+           [&] { return gather(hit, key_of(hit.instance, hit.local, hit.front, 4), kStemRays); })
       .irradiance_w_m2;
 }
 
@@ -209,8 +209,8 @@ GatheredLight::AmbientCube GatheredLight::cube(std::uint32_t instance, std::uint
     const ElementLight& light = shader_.light_of(leaf);
     Vec3 normal(0.0);  // needles look everywhere
     if (cluster.flat)
-      normal = glm::normalize(world_direction_from_tree(
-          at, glm::cross(Vec3(figures.flats[i].u), Vec3(figures.flats[i].v))));
+      normal = glm::normalize(
+          world_direction_from_tree(at, glm::cross(Vec3(figures.flats[i].u), Vec3(figures.flats[i].v))));
     add(normal, light.front);
     add(-normal, light.back);
   }
@@ -233,8 +233,8 @@ Vec3 GatheredLight::stem(const RayHit& hit) {
   const Basis around = basis_around(axis);
   const double taper = at.scale * (static_cast<double>(s.radius_to_m) - s.radius_from_m) / length;
   const int rings = std::clamp(static_cast<int>(std::ceil(length / (at.scale * kStemSpacing_m))), 1, 1000);
-  const double along = std::clamp(
-      glm::dot(hit.on_original_m - base, axis) / length * rings - 0.5, 0.0, rings - 1.0);
+  const double along =
+      std::clamp(glm::dot(hit.on_original_m - base, axis) / length * rings - 0.5, 0.0, rings - 1.0);
   double turn = std::atan2(glm::dot(hit.normal, around.bitangent), glm::dot(hit.normal, around.tangent)) /
                 (2.0 * kPi) * kAround;
   if (turn < 0.0) turn += kAround;
@@ -254,7 +254,8 @@ Vec3 GatheredLight::stem(const RayHit& hit) {
       const Vec3 out = std::cos(angle) * around.tangent + std::sin(angle) * around.bitangent;
       RayHit start = from;
       start.normal = (hit.front ? 1.0 : -1.0) * glm::normalize(out - taper * axis);
-      start.on_original_m = base + h * axis + (at.scale * static_cast<double>(s.radius_from_m) + taper * h) * out;
+      start.on_original_m =
+          base + h * axis + (at.scale * static_cast<double>(s.radius_from_m) + taper * h) * out;
       return gather(start, key, kStemRays);
     });
     weight *= node.share;

@@ -26,8 +26,8 @@ class GatheredLight {
   // All must outlive it.
   GatheredLight(const ShadingParts& parts, const Shader& shader, const FigureTable& table);
 
-  // W m-2 on the ground at a place of the base cell, seen from `distance_m` (0: from everywhere alike) by pixels
-  // `pixel_m` wide there.
+  // W m-2 on the ground at a place of the base cell, seen from `distance_m` (0: from everywhere alike) by
+  // pixels `pixel_m` wide there.
   Vec3 on_ground(const Vec3& point_m, double pixel_m, double distance_m);
   // On wood that was met (RayHit of kind kWood or kWoodMesh, on_original_m, normal).
   Vec3 on_wood(const RayHit& hit);
@@ -64,7 +64,8 @@ class GatheredLight {
   const Shader& shader_;
   const FigureTable& table_;
   Vec2 lattice_m_{0.75};
-  // Per shown prototype and wood segment: 1 + cluster of leaves nearby, 0 none; the segment whose nodes serve.
+  // Per shown prototype and wood segment: 1 + cluster of leaves nearby, 0 none; the segment whose nodes
+  // serve.
   std::vector<std::vector<std::uint32_t>> leaves_near_, stem_of_;
   Kept<Node> nodes_;
   Kept<AmbientCube> cubes_;

@@ -11,12 +11,13 @@
 namespace sunfleck {
 namespace {
 
-constexpr std::uint32_t kMostSamplesAtOnce = 32;       // of a pixel, in one chunk of units
-constexpr std::size_t kTileSampleRoom = 32768;         // what a fast cache holds
-constexpr std::size_t kBatchSamples = 8u << 20;        // between two looks from the sun
-constexpr std::uint32_t kDiscDirections = 4;           // per chunk of units
+constexpr std::uint32_t kMostSamplesAtOnce = 32;  // of a pixel, in one chunk of units
+constexpr std::size_t kTileSampleRoom = 32768;    // what a fast cache holds
+constexpr std::size_t kBatchSamples = 8u << 20;   // between two looks from the sun
+constexpr std::uint32_t kDiscDirections = 4;      // per chunk of units
 constexpr std::uint64_t kMostCells = 4096;
-constexpr std::size_t kMostTrees = 4'000'000;
+constexpr std::size_t kMostTrees = 4'000'000;  // in view: 1 GB
+constexpr std::uint64_t kMostFigureBytes = 4ull << 30;
 
 // One tile's samples from the first look to their shading.
 struct TileWork {
@@ -92,12 +93,14 @@ class ChunkPainter {
 
 void ChunkPainter::add_tile(const PixelRect& rect, std::vector<TileWork>& batch) const {
   const std::int32_t across = samples_.per_pixel() <= 4 ? 64 : 32;
-  const auto rows = static_cast<std::int32_t>(kTileSampleRoom / (static_cast<std::size_t>(across) * samples_.per_pixel()));
+  const auto rows =
+      static_cast<std::int32_t>(kTileSampleRoom / (static_cast<std::size_t>(across) * samples_.per_pixel()));
   const std::int32_t high = std::clamp(rows / 8 * 8, 8, 64);
-  std::size_t first = batch.empty() ? 0 : batch.back().first_sample +
-                                              static_cast<std::size_t>(batch.back().tile.width()) *
-                                                  static_cast<std::size_t>(batch.back().tile.height()) *
-                                                  samples_.drawn();
+  std::size_t first =
+      batch.empty() ? 0
+                    : batch.back().first_sample + static_cast<std::size_t>(batch.back().tile.width()) *
+                                                      static_cast<std::size_t>(batch.back().tile.height()) *
+                                                      samples_.drawn();
   for (std::int32_t y = rect.y0; y < rect.y1; y += high)
     for (std::int32_t x = rect.x0; x < rect.x1; x += across) {
       TileWork work;
@@ -144,7 +147,8 @@ void ChunkPainter::ask_sun(const VisibleTile& visible, const TileWork& work, std
     const std::size_t flats = t.placed.figures->flats.size();
     // A needle may lie in the shade of its own shoot.
     if (figure < flats || t.placed.figures->rounds[figure - flats].extinction_per_m == 0.0f)
-      point.self = raster_.sun_trees.number_of(t.placed.instance, {t.cell.x - cell.x, t.cell.y - cell.y}, figure);
+      point.self =
+          raster_.sun_trees.number_of(t.placed.instance, {t.cell.x - cell.x, t.cell.y - cell.y}, figure);
   }
   point.lot = visible.lot(i) ^ 0x5bd1e995u;
   const std::size_t m = (place + place / samples_.drawn()) % to_sun_.size();
@@ -161,8 +165,8 @@ void ChunkPainter::look(TileWork& work, Image& image) const {
   visible.start(raster_.frame, parts_.scene.forest().terrain, work.tile, samples_, camera_.width_px);
   visible.draw(raster_.trees, raster_.figures, control_);
   const std::uint32_t drawn = samples_.drawn();
-  const std::size_t count = static_cast<std::size_t>(work.tile.width()) *
-                            static_cast<std::size_t>(work.tile.height()) * drawn;
+  const std::size_t count =
+      static_cast<std::size_t>(work.tile.width()) * static_cast<std::size_t>(work.tile.height()) * drawn;
   work.number.reserve(count), work.place.reserve(count);
   work.points.resize(to_sun_.size());
   std::size_t tree = 0;
@@ -171,7 +175,9 @@ void ChunkPainter::look(TileWork& work, Image& image) const {
       for (std::uint32_t s = 0; s < drawn; ++s) {
         const std::size_t i = visible.index(x, y, s);
         const Vec2 in_pixel = visible.place_px(i) - Vec2(work.tile.x0 + x, work.tile.y0 + y);
-        const auto part = [](double v) { return static_cast<std::uint16_t>(std::clamp(v * 65536.0, 0.0, 65535.0)); };
+        const auto part = [](double v) {
+          return static_cast<std::uint16_t>(std::clamp(v * 65536.0, 0.0, 65535.0));
+        };
         const auto place = static_cast<std::uint32_t>(work.number.size());
         work.number.push_back(visible.number(i));
         work.place.push_back({part(in_pixel.x), part(in_pixel.y)});
@@ -214,7 +220,8 @@ void ChunkPainter::shade(const TileWork& work, std::span<const std::uint8_t> dar
       bool shows_disc = false;
       for (Group& g : groups) {
         g.light = shader_.light_at(g.number, g.place_px / double(g.count));
-        shows_disc = shows_disc || (g.number == kSkyNumber && shader_.near_disc(g.place_px / double(g.count)));
+        shows_disc =
+            shows_disc || (g.number == kSkyNumber && shader_.near_disc(g.place_px / double(g.count)));
       }
       std::uint32_t s = 0;
       for (std::uint32_t unit = samples_.first_unit; unit < samples_.end_unit; ++unit) {
@@ -257,6 +264,13 @@ RasterAttempt prepare_raster(const PictureScene& scene, const Camera& camera, co
   };
   if (camera.kind == CameraKind::kFisheye)
     return refused("camera.kind", "is fisheye, which has no plane picture", "pinhole or orthographic");
+  std::uint64_t bytes = 0;
+  for (const Prototype& p : forest.prototypes)
+    bytes +=
+        sizeof(FlatFigure) * (p.foliage.size() + p.wood_mesh.size()) + sizeof(RoundFigure) * p.wood.size();
+  if (bytes > kMostFigureBytes)
+    return refused("forest", "has prototypes whose figures take " + std::to_string(bytes >> 20) + " MiB",
+                   "at most " + std::to_string(kMostFigureBytes >> 20) + " MiB");
   const auto cells = cells_seen(forest, camera, kMostCells);
   if (!cells)
     return refused("camera.look_at_m", "sees more periods of the forest than can be drawn",

@@ -153,11 +153,15 @@ void meet_shoot(const RoundForms& f, std::uint32_t key, const PlaceRun& run, con
     trace::load(y, run.y + first);
     const LineSplit l(f, x - run.corner_x, y - run.corner_y);
     const FloatLanes aside = l.across * l.run_beside - l.beside * l.run_across;
-    const FloatLanes disc = f.radius_m * f.radius_m * l.run2 - aside * aside;
-    const IntLanes meets = (trace::kLaneNumbers + first < run.count) & (disc > 0.0f);
+    // Along the axis there is no side to meet: inside is what lies within the radius.
+    const IntLanes end_on = l.run2 <= 1e-10f * l.rise * l.rise;
+    const FloatLanes run2 = end_on ? 1e-10f * l.rise * l.rise : l.run2;
+    const FloatLanes disc = f.radius_m * f.radius_m * run2 - aside * aside;
+    const IntLanes within = l.across * l.across + l.beside * l.beside <= f.radius_m * f.radius_m;
+    const IntLanes meets = (trace::kLaneNumbers + first < run.count) & (disc > 0.0f) & (within | ~end_on);
     if (!any(meets)) continue;
     const FloatLanes ahead = l.across * l.run_across + l.beside * l.run_beside;
-    const FloatLanes a = 1.0f / l.run2, s = root(larger(disc, evenly(0)));
+    const FloatLanes a = 1.0f / run2, s = root(larger(disc, evenly(0)));
     const FloatLanes by_rise = 1.0f / l.rise;
     const FloatLanes one = -l.along * by_rise, other = (f.length_m - l.along) * by_rise;
     FloatLanes enter = larger((-ahead - s) * a, smaller(one, other));

@@ -35,8 +35,7 @@ RayHit RasterShader::ground_hit(const CameraRay& ray) const {
 
 RayHit RasterShader::flat_hit(const SeenTree& tree, const FlatFigure& figure, const CameraRay& ray) const {
   const Instance& at = parts_.scene.forest().instances[tree.placed.instance];
-  const Vec3 n = glm::normalize(
-      world_direction_from_tree(at, glm::cross(Vec3(figure.u), Vec3(figure.v))));
+  const Vec3 n = glm::normalize(world_direction_from_tree(at, glm::cross(Vec3(figure.u), Vec3(figure.v))));
   const Vec3 centre = world_from_tree(at, Vec3(figure.centre)) + tree.placed.shift_m;
   const double along = glm::dot(n, ray.direction);
   RayHit hit;
@@ -59,8 +58,8 @@ RayHit RasterShader::round_hit(const SeenTree& tree, const RoundFigure& figure, 
   hit.front = true;
   if (hit.kind == HitKind::kWood) {
     const trace::ConeFrustum cone{base, axis, length, scale * figure.radius, figure.taper};
-    const auto met = trace::intersect(cone, ray.origin_m, ray.direction, 0.0,
-                                      std::numeric_limits<double>::infinity());
+    const auto met =
+        trace::intersect(cone, ray.origin_m, ray.direction, 0.0, std::numeric_limits<double>::infinity());
     if (met) {
       hit.front = met->from_outside;
       hit.normal = hit.front ? met->outward_normal : -met->outward_normal;
@@ -117,9 +116,10 @@ Shader::SunAndRest RasterShader::light_at(std::uint32_t number, const Vec2& plac
   if (hit.kind == HitKind::kFoliage) return shader_.leaf_parts(hit, -ray->direction, footprint_m);
   if (hit.kind == HitKind::kGround && !hit.front) return {};  // the dark below
   const Vec3 share = parts_.surfaces.at(hit, footprint_m).reflect / kPi;
-  const Vec3 rest = hit.kind == HitKind::kGround ? gathered_.on_ground(hit.position_m, footprint_m,
-                                                                            frame_.perspective ? hit.distance_m : 0.0)
-                                                 : gathered_.on_wood(hit);
+  const Vec3 rest =
+      hit.kind == HitKind::kGround
+          ? gathered_.on_ground(hit.position_m, footprint_m, frame_.perspective ? hit.distance_m : 0.0)
+          : gathered_.on_wood(hit);
   return {share * rest, share * shader_.open_sun(hit.normal)};
 }
 

@@ -10,11 +10,11 @@
 namespace sunfleck {
 namespace {
 
-constexpr double kDisc = 0.02;            // wider than the disc of any sun that is drawn, in radians
+constexpr double kDisc = 0.02;  // wider than the disc of any sun that is drawn, in radians
 constexpr std::size_t kMostCells = 1u << 22;
 constexpr double kPointsPerCell = 2.0;
-constexpr std::int32_t kCoarse = 4;       // cells along a block
-constexpr float kRounding = 4e-7f;        // of the scene's extent, as in RayScene
+constexpr std::int32_t kCoarse = 4;  // cells along a block
+constexpr float kRounding = 4e-7f;   // of the scene's extent, as in RayScene
 
 // The points of one direction, cell by cell.
 class SunCells {
@@ -214,7 +214,8 @@ bool SunTrees::may_shade(const Vec3& p) const {
          p.y >= shade_.lo.y - wider && p.y <= shade_.hi.y + wider && p.z >= shade_.lo.z;
 }
 
-std::uint32_t SunTrees::number_of(std::uint32_t instance, const RasterCell& cell, std::uint32_t figure) const {
+std::uint32_t SunTrees::number_of(std::uint32_t instance, const RasterCell& cell,
+                                  std::uint32_t figure) const {
   for (std::size_t c = first_copy_[instance]; c < first_copy_[instance + 1]; ++c)
     if (copies_[c].cell == cell) return copies_[c].first_number + figure;
   return kSkyNumber;

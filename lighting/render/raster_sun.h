@@ -1,8 +1,8 @@
 // Which of many points the sun sees, without rays: the points are sorted into the cells of the sun's view,
 // then every figure is drawn once and asks the points below it (irregular z-buffer: Johnson, Lee, Burns and
 // Mark 2005). Exact for each point, so there is no texel, no bias and no crack; a figure does not shade the
-// points that lie on it, as a ray does not meet the surface it starts from. The disc of the sun is a number of
-// directions; a point asks one of them.
+// points that lie on it, as a ray does not meet the surface it starts from. The disc of the sun is a number
+// of directions; a point asks one of them.
 #pragma once
 
 #include <span>

@@ -34,9 +34,9 @@ void VisibleTile::place_samples(const TileSamples& samples, std::int32_t picture
   std::size_t i = 0;
   for (std::int32_t y = 0; y < tile_.height(); ++y)
     for (std::int32_t x = 0; x < tile_.width(); ++x) {
-      const std::uint64_t pixel = static_cast<std::uint64_t>(tile_.y0 + y) *
-                                      static_cast<std::uint64_t>(picture_width_px) +
-                                  static_cast<std::uint64_t>(tile_.x0 + x);
+      const std::uint64_t pixel =
+          static_cast<std::uint64_t>(tile_.y0 + y) * static_cast<std::uint64_t>(picture_width_px) +
+          static_cast<std::uint64_t>(tile_.x0 + x);
       const auto put = [&](double in_x, double in_y, std::uint32_t lot) {
         x_[i] = static_cast<float>(x + in_x), y_[i] = static_cast<float>(y + in_y), lot_[i] = lot;
         ++i;
@@ -55,9 +55,8 @@ void VisibleTile::place_samples(const TileSamples& samples, std::int32_t picture
 // An endless plane: only how near it is matters.
 void VisibleTile::lay_ground(const Terrain& terrain) {
   const Basis along = basis_around(terrain.normal());
-  const auto forms =
-      flat_forms(frame_, frame_.from_world({0, 0, terrain.height_at(0, 0)}), frame_.turned(along.tangent),
-                 frame_.turned(along.bitangent), Vec2(0.0));
+  const auto forms = flat_forms(frame_, frame_.from_world({0, 0, terrain.height_at(0, 0)}),
+                                frame_.turned(along.tangent), frame_.turned(along.bitangent), Vec2(0.0));
   if (!forms) return;
   const LinearForm& f = forms->nearness;
   const auto nearest = static_cast<float>(frame_.nearest);

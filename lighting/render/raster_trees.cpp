@@ -56,9 +56,8 @@ RasterCell cell_at(const Forest& forest, const Vec3& p) {
 
 std::size_t SeenTrees::tree_of(std::uint32_t number) const {
   const auto after =
-      std::upper_bound(trees.begin(), trees.end(), number, [](std::uint32_t n, const SeenTree& t) {
-        return n < t.placed.first_number;
-      });
+      std::upper_bound(trees.begin(), trees.end(), number,
+                       [](std::uint32_t n, const SeenTree& t) { return n < t.placed.first_number; });
   return static_cast<std::size_t>(after - trees.begin()) - 1;
 }
 

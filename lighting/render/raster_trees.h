@@ -40,7 +40,8 @@ struct SeenTrees {
 struct CellRange {
   RasterCell first, last;
   std::uint64_t count() const {
-    return static_cast<std::uint64_t>(last.x - first.x + 1) * static_cast<std::uint64_t>(last.y - first.y + 1);
+    return static_cast<std::uint64_t>(last.x - first.x + 1) *
+           static_cast<std::uint64_t>(last.y - first.y + 1);
   }
 };
 std::optional<CellRange> cells_seen(const Forest& forest, const Camera& camera, std::uint64_t most);

@@ -61,8 +61,8 @@ struct Image {
   std::vector<float> irradiance_w_m2;  // 1 per pixel: front + back irradiance of the element seen in band 0;
                                        // 0 elsewhere, and everywhere in path-traced pictures
   int samples_per_pixel = 0;           // taken, of the pixel with fewest
-  Visibility visibility = Visibility::kRays;  // that was used: rays or raster
-  bool stopped = false;                // before it was done, see RenderEffort
+  Visibility visibility = Visibility::kRays;     // that was used: rays or raster
+  bool stopped = false;                          // before it was done, see RenderEffort
   std::array<std::size_t, kDetails> trees_at{};  // trees shown at each Detail, among the first of the casts
 };
 // Standard error of a pixel, root mean square over the picture, relative to its mean brightness. Without the

@@ -1,9 +1,42 @@
 #include "lighting/render/render_config.h"
 
+#include "sim/base/contract.h"
 #include "sim/base/error.h"
 
 namespace sunfleck {
 namespace {
+
+template <class Choice>
+struct Word {
+  Choice choice;
+  const char* word;
+};
+constexpr Word<RenderMode> kModes[] = {{RenderMode::kLightMap, "light_map"},
+                                       {RenderMode::kPathTraced, "path_traced"}};
+constexpr Word<LeafSun> kLeafSuns[] = {
+    {LeafSun::kTraced, "traced"}, {LeafSun::kStored, "stored"}, {LeafSun::kTile, "tile"}};
+constexpr Word<Visibility> kVisibilities[] = {
+    {Visibility::kAuto, "auto"}, {Visibility::kRays, "rays"}, {Visibility::kRaster, "raster"}};
+constexpr Word<ShootForm> kShootForms[] = {
+    {ShootForm::kVolume, "volume"}, {ShootForm::kNeedles, "explicit"}, {ShootForm::kBough, "bough"}};
+
+template <class Choice, std::size_t count>
+std::string word_of(const Word<Choice> (&words)[count], Choice choice) {
+  for (const auto& w : words)
+    if (w.choice == choice) return w.word;
+  SUNFLECK_EXPECTS(false);
+  return {};
+}
+
+template <class Choice, std::size_t count>
+Choice named(const Word<Choice> (&words)[count], const std::string& word, const std::string& where) {
+  std::string known;
+  for (const auto& w : words) {
+    if (word == w.word) return w.choice;
+    known += (known.empty() ? "" : ", ") + std::string(w.word);
+  }
+  throw_invalid(where, "is '" + word + "'", "one of " + known);
+}
 
 std::filesystem::path read_path(const ConfigTable& table, const char* key) {
   const std::string text = table.text_or(key, "");
@@ -31,39 +64,31 @@ LeafOutline read_outline(const ConfigTable& table) {
 
 }  // namespace
 
-std::string to_string(RenderMode mode) {
-  return mode == RenderMode::kPathTraced ? "path_traced" : "light_map";
-}
-
-std::string to_string(LeafSun sun) {
-  switch (sun) {
-    case LeafSun::kStored:
-      return "stored";
-    case LeafSun::kTile:
-      return "tile";
-    case LeafSun::kTraced:
-      break;
-  }
-  return "traced";
-}
 std::string to_string(GroundCover ground) { return ground == GroundCover::kGrass ? "grass" : "litter"; }
 std::string to_string(ToneCurve curve) { return curve == ToneCurve::kFilmic ? "filmic" : "linear"; }
 
 RenderMode render_mode_named(const std::string& word, const std::string& where) {
-  for (const RenderMode mode : {RenderMode::kLightMap, RenderMode::kPathTraced})
-    if (word == to_string(mode)) return mode;
-  throw_invalid(where, "is '" + word + "'", "light_map or path_traced");
+  return named(kModes, word, where);
 }
+LeafSun leaf_sun_named(const std::string& word, const std::string& where) {
+  return named(kLeafSuns, word, where);
+}
+Visibility visibility_named(const std::string& word, const std::string& where) {
+  return named(kVisibilities, word, where);
+}
+ShootForm shoot_form_named(const std::string& word, const std::string& where) {
+  return named(kShootForms, word, where);
+}
+
+std::string to_string(RenderMode mode) { return word_of(kModes, mode); }
+std::string to_string(LeafSun sun) { return word_of(kLeafSuns, sun); }
+std::string to_string(Visibility visibility) { return word_of(kVisibilities, visibility); }
+std::string to_string(ShootForm form) { return word_of(kShootForms, form); }
 
 RenderRequest picture_request(const RenderSettings& settings, const Camera& camera,
                               const Illumination& light) {
-  return {camera, light, settings.look, settings.effort, settings.leaf_sun, settings.detail};
-}
-
-LeafSun leaf_sun_named(const std::string& word, const std::string& where) {
-  for (const LeafSun sun : {LeafSun::kTraced, LeafSun::kStored, LeafSun::kTile})
-    if (word == to_string(sun)) return sun;
-  throw_invalid(where, "is '" + word + "'", "traced, stored or tile");
+  return {
+      camera, light, settings.look, settings.effort, settings.leaf_sun, settings.detail, settings.visibility};
 }
 
 RenderSettings read_render_settings(const ConfigTable& table) {
@@ -73,6 +98,7 @@ RenderSettings read_render_settings(const ConfigTable& table) {
   s.effort.max_samples_per_pixel =
       static_cast<int>(table.integer_or("max_samples_per_pixel", 4096, {1, 1 << 20}));
   s.leaf_sun = leaf_sun_named(table.text_or("leaf_sun", "traced"), table.where("leaf_sun"));
+  s.visibility = visibility_named(table.text_or("visibility", "auto"), table.where("visibility"));
   s.detail = picture_detail_named(table.text_or("detail", "full"), table.where("detail"));
   s.detail.tolerance = table.number_or("detail_tolerance", s.detail.tolerance, {1e-6, 1.0});
   s.look.outline = read_outline(table);
@@ -83,10 +109,7 @@ RenderSettings read_render_settings(const ConfigTable& table) {
   s.look.gloss_exponent = table.number_or("gloss_exponent", 20.0, {1.0, 1000.0});
   s.look.bark_width_m = table.number_or("bark_width_m", 0.5, {1e-3, 100.0});
   for (const ConfigTable& t : table.tables("textures")) s.look.textures.push_back(read_textures(t));
-  const std::string needles = table.choice_or("needles", "volume", {"volume", "explicit", "bough"});
-  s.look.shoots = needles == "explicit" ? ShootForm::kNeedles
-                  : needles == "bough"  ? ShootForm::kBough
-                                        : ShootForm::kVolume;
+  s.look.shoots = shoot_form_named(table.text_or("needles", "volume"), table.where("needles"));
   s.tone.curve = table.choice_or("tone", "linear", {"linear", "filmic"}) == "filmic" ? ToneCurve::kFilmic
                                                                                      : ToneCurve::kLinear;
   s.tone.exposure_stops = table.number_or("exposure_stops", 0.0, {-20.0, 20.0});

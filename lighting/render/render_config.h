@@ -11,17 +11,22 @@ std::string to_string(RenderMode mode);  // "light_map", "path_traced"
 // Throws Error(kInvalidInput) at `where` for another word.
 RenderMode render_mode_named(const std::string& word, const std::string& where);
 
-std::string to_string(LeafSun sun);         // "stored", "traced", "tile"
-std::string to_string(GroundCover ground);  // "litter", "grass"
-std::string to_string(ToneCurve curve);     // "linear", "filmic"
+std::string to_string(LeafSun sun);            // "stored", "traced", "tile"
+std::string to_string(Visibility visibility);  // "auto", "rays", "raster"
+std::string to_string(ShootForm form);         // "volume", "explicit", "bough"
+std::string to_string(GroundCover ground);     // "litter", "grass"
+std::string to_string(ToneCurve curve);        // "linear", "filmic"
 // Throws likewise.
 LeafSun leaf_sun_named(const std::string& word, const std::string& where);
+Visibility visibility_named(const std::string& word, const std::string& where);
+ShootForm shoot_form_named(const std::string& word, const std::string& where);
 
 struct RenderSettings {
   RenderMode mode = RenderMode::kLightMap;
   PictureLook look;
   RenderEffort effort;
   LeafSun leaf_sun = LeafSun::kTraced;
+  Visibility visibility = Visibility::kAuto;
   PictureDetail detail;
   ToneMap tone;
 };
@@ -31,7 +36,9 @@ RenderRequest picture_request(const RenderSettings& settings, const Camera& came
                               const Illumination& light);
 
 // Keys: mode ("light_map", "path_traced"), noise, max_samples_per_pixel, leaf_sun ("traced", "stored",
-// "tile"), detail ("full", "auto", "pruned_4", "pruned_16", "pruned_64"), detail_tolerance,
+// "tile"), visibility ("auto", "rays", "raster"; of pictures from a light map),
+// detail ("full", "auto", "pruned_4", "pruned_16", "pruned_64"), detail_tolerance,
+// needles ("volume", "explicit", "bough"),
 // leaf_outline ("by_species", "as_modelled", "ovate", "lobed", "needle"), patterns, leaf_gloss,
 // ground ("litter", "grass"), gloss_exponent, bark_width_m, tone ("linear", "filmic"), exposure_stops, and
 // [[render.textures]]: material, leaf_alpha, leaf_reflectance, leaf_thickness, leaf_normal, bark (image

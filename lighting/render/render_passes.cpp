@@ -46,8 +46,9 @@ class Rounds {
     sample_(first_unit, end_unit, image, film, [&](const PixelRect& tile) {
       for (int y = tile.y0; y < tile.y1; ++y)
         for (int x = tile.x0; x < tile.x1; ++x)
-          develop(film, static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width_px) +
-                            static_cast<std::size_t>(x),
+          develop(film,
+                  static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width_px) +
+                      static_cast<std::size_t>(x),
                   image);
       if (!sink_) return;
       const std::lock_guard lock(telling_);
@@ -107,7 +108,8 @@ PassPlan plan_passes(const Camera& camera, const RenderEffort& effort, int sampl
   return {samples_per_unit, (samples + samples_per_unit - 1) / samples_per_unit, effort};
 }
 
-Image run_rounds(const Camera& camera, const PassPlan& plan, const RoundSampler& sample, const TileSink& tiles) {
+Image run_rounds(const Camera& camera, const PassPlan& plan, const RoundSampler& sample,
+                 const TileSink& tiles) {
   Rounds rounds(camera, sample, tiles);
   try {
     run_all(rounds, plan);

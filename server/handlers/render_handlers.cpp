@@ -127,7 +127,8 @@ Image picture_of(const RenderTask& task, const Forest& forest, const LightMap* m
 RenderCall::Next render_scene(ServerState& state, const v1::StreamRenderRequest& request,
                               const std::filesystem::path& scratch, RenderCall& call,
                               const RunControl& control) {
-  const RenderTask task = checked_task(request, state.limits);
+  RenderTask task = checked_task(request, state.limits);
+  if (task.render.look.shoots != ShootForm::kVolume) task.render.look.needles = needle_kinds(state.species);
   const ScenePtr scene = state.scenes.find(request.scene());
   check_memory(task, state.limits);
   RenderStop stop(state, control.stop);

@@ -1,10 +1,11 @@
 // Pictures from a light map by rays and by rasterising, and path-traced ones, of a scene file: their CPU time
 // and how far they are from converged ones.
-//   lighting_render_raster forest.vdb light.nc scene.toml [width [converged samples [folder]]]
-// Prints, for 4, 16 and 64 samples per pixel, the median CPU time of three runs, the mean absolute difference to
-// the converged path-traced picture and SSIM, then time ratios: at the same samples, and at equal error (the
-// path tracer's samples for the error of the picture compared, by its error falling as the root of samples). With a
-// folder: the pictures as PNG.
+//   lighting_render_raster forest.vdb light.nc scene.toml [width [converged samples [folder [samples]]]]
+// With 0 converged samples: times alone.
+// Prints, for 4, 16 and 64 samples per pixel, the median CPU time of three runs, the mean absolute difference
+// to the converged path-traced picture and SSIM, then time ratios: at the same samples, and at equal error
+// (the path tracer's samples for the error of the picture compared, by its error falling as the root of
+// samples). With a folder: the pictures as PNG.
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -79,10 +80,12 @@ void compare(const Scene& scene, const Image& paths, const Image& rays, const st
     for (const Way way : {Way::kPaths, Way::kRays, Way::kRaster}) {
       const auto w = static_cast<std::size_t>(way);
       const Timed t = timed(scene, way, samples);
-      const ImageDifference to_paths = image_difference(t.image, paths), to_rays = image_difference(t.image, rays);
+      const ImageDifference to_paths = image_difference(t.image, paths),
+                            to_rays = image_difference(t.image, rays);
       time[w] = t.cpu_s, error[w] = to_paths.mean_absolute;
       std::printf(
-          "%-6s %3d samples: %7.3f s CPU, to path-traced %+5.2f / %5.2f %%, SSIM %.4f; to rays %+5.2f / %5.2f %%\n",
+          "%-6s %3d samples: %7.3f s CPU, to path-traced %+5.2f / %5.2f %%, SSIM %.4f; to rays %+5.2f / "
+          "%5.2f %%\n",
           kNames[w], samples, t.cpu_s, 100 * to_paths.bias, 100 * to_paths.mean_absolute, to_paths.ssim,
           100 * to_rays.bias, 100 * to_rays.mean_absolute);
       if (!folder.empty())
@@ -90,8 +93,9 @@ void compare(const Scene& scene, const Image& paths, const Image& rays, const st
             save_exr(t.image, folder + "/" + kNames[w] + std::to_string(samples) + ".exr");
     }
     for (const std::size_t w : {1u, 2u})
-      std::printf("%-6s %3d samples: %.1f times less than paths of as many samples, %.1f times at equal error\n",
-                  kNames[w], samples, time[0] / time[w], time[0] * std::pow(error[0] / error[w], 2) / time[w]);
+      std::printf(
+          "%-6s %3d samples: %.1f times less than paths of as many samples, %.1f times at equal error\n",
+          kNames[w], samples, time[0] / time[w], time[0] * std::pow(error[0] / error[w], 2) / time[w]);
   }
 }
 
@@ -107,7 +111,8 @@ int run(int argc, char** argv) {
   if (argc < 4) return 2;
   const ConfigTable root = ConfigTable::from_file(argv[3]);
   const LightRequest light = read_light_request(root.table("light"));
-  const RenderSettings look = root.table_if("render") ? read_render_settings(root.table("render")) : RenderSettings{};
+  const RenderSettings look =
+      root.table_if("render") ? read_render_settings(root.table("render")) : RenderSettings{};
   const Forest forest = load_forest(argv[1]);
   const LightMap map = load_netcdf(argv[2]);
   const OpticsTable optics(forest, light.optics);
@@ -116,18 +121,28 @@ int run(int argc, char** argv) {
     camera.height_px = camera.height_px * std::atoi(argv[4]) / camera.width_px;
     camera.width_px = std::atoi(argv[4]);
   }
+  if (argc > 7) camera.samples_per_pixel = std::atoi(argv[7]);
   const int samples = argc > 5 ? std::atoi(argv[5]) : 512;
-  const Scene scene{forest, map, optics, {camera, checked(light.light, optics.band_count()), look.look, {}, look.leaf_sun}, look.tone};
-  if (samples == 0) {  // for a profiler
-    const Timed t = timed(scene, Way::kRaster, camera.samples_per_pixel);
-    std::printf("raster %d samples: %.3f s CPU\n", camera.samples_per_pixel, t.cpu_s);
+  const Scene scene{forest,
+                    map,
+                    optics,
+                    {camera, checked(light.light, optics.band_count()), look.look, {}, look.leaf_sun},
+                    look.tone};
+  if (samples == 0) {  // times alone, at the scene's samples; paths from four samples
+    const Timed raster = timed(scene, Way::kRaster, camera.samples_per_pixel);
+    const double paths_s = timed(scene, Way::kPaths, 4).cpu_s * camera.samples_per_pixel / 4;
+    std::printf("%d x %d, %d samples: raster %.3f s CPU, paths %.2f s, %.1f times\n", camera.width_px,
+                camera.height_px, camera.samples_per_pixel, raster.cpu_s, paths_s, paths_s / raster.cpu_s);
     return 0;
   }
   const Image rays = converged(scene, Way::kRays, samples), paths = converged(scene, Way::kPaths, samples);
   const ImageDifference d = image_difference(rays, paths);
-  std::printf("converged rays to paths %+.2f / %.2f %%, SSIM %.4f\n", 100 * d.bias, 100 * d.mean_absolute, d.ssim);
+  std::printf("converged rays to paths %+.2f / %.2f %%, SSIM %.4f\n", 100 * d.bias, 100 * d.mean_absolute,
+              d.ssim);
   const std::string folder = argc > 6 ? argv[6] : "";
-  if (!folder.empty()) save_png(paths, folder + "/converged_paths.png", scene.tone), save_png(rays, folder + "/converged_rays.png", scene.tone);
+  if (!folder.empty())
+    save_png(paths, folder + "/converged_paths.png", scene.tone),
+        save_png(rays, folder + "/converged_rays.png", scene.tone);
   compare(scene, paths, rays, folder);
   return 0;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stop_token>
 
+#include "lighting/render/raster_choice.h"
 #include "sim/base/error.h"
 #include "sim/base/parallel.h"
 #include "tests/lighting/render/bush_scene.h"
@@ -22,7 +23,8 @@ using test::RenderScene;
 Image picture(const RenderScene& scene, const LightMap& map, const Camera& camera, Visibility visibility,
               const RunControl& control = {}, const TileSink& tiles = {}) {
   return render(scene.forest, OpticsTable(scene.forest, scene.optics_request), map,
-                {camera, scene.light, scene.look, scene.effort, LeafSun::kTraced, visibility}, control, tiles);
+                {camera, scene.light, scene.look, scene.effort, LeafSun::kTraced, visibility}, control,
+                tiles);
 }
 
 // Per pixel within 6 standard errors of both and 6 % of the mean (wood and ground interpolate their sky), but
@@ -67,7 +69,8 @@ TEST(RasterPicture, RepeatedBushAgreesWithRays) {
                    picture(scene, map, camera, Visibility::kRaster));
 }
 
-// A sheet's shadow on bare ground under a black sky: open ground outside, nothing inside, no bias at its foot.
+// A sheet's shadow on bare ground under a black sky: open ground outside, nothing inside, no bias at its
+// foot.
 TEST(RasterPicture, ShadowHasItsAreaAndTouchesItsFoot) {
   RenderScene scene;
   scene.override_leaf({0, 0, 0, 0}, 0.0);
@@ -136,18 +139,16 @@ TEST(RasterPicture, StatesItsNoise) {
 TEST(RasterPicture, NoiseTargetTellsEveryTileInEveryRound) {
   RenderScene scene = test::traced_bush();
   const LightMap map = test::reference_map(scene);
-  scene.effort.noise = 0.1;
+  scene.effort.noise = 0.01;
   Camera camera = bush_view(1);
   camera.width_px = 70;
   int tiles = 0;
   const Image image = picture(scene, map, camera, Visibility::kRaster, {},
                               [&](const Image&, int, int, int, int) { ++tiles; });
-  EXPECT_LE(image_noise(image), 0.1);
+  EXPECT_LE(image_noise(image), 0.01);
   EXPECT_GT(image.samples_per_pixel, 4);
   EXPECT_EQ(tiles % 2, 0);
   EXPECT_GT(tiles, 2);
-  // The picture of that many samples.
-  scene.effort.noise = 0.0;
   EXPECT_FALSE(image.stopped);
 }
 
@@ -188,6 +189,20 @@ TEST(RasterPicture, RefusesWhatItCannotSee) {
     EXPECT_NE(error.remedy().find("rays"), std::string::npos);
   }
   EXPECT_EQ(picture(scene, map, horizon, Visibility::kAuto).visibility, Visibility::kRays);
+}
+
+// More samples are for the raster, more figures for rays.
+TEST(RasterChoice, FollowsCost) {
+  RasterWork work;
+  work.prototype_figures = 200'000, work.camera_figures = work.sun_figures = 1'500'000;
+  work.pixels = 100'000, work.samples_per_pixel = 16, work.sun_directions = 4;
+  EXPECT_LT(raster_cost_s(work), rays_cost_s(work));
+  RasterWork few = work;
+  few.pixels = 1000;
+  EXPECT_GT(raster_cost_s(few), rays_cost_s(few));
+  RasterWork crowded = work;
+  crowded.camera_figures = crowded.sun_figures = 1'000'000'000;
+  EXPECT_GT(raster_cost_s(crowded), rays_cost_s(crowded));
 }
 
 TEST(RasterPicture, EmptyForestAndNightAreFine) {
