@@ -22,13 +22,14 @@ const Vec3 kSun = glm::normalize(Vec3(0.3, -0.4, 1.0));
 struct Tree {
   std::string name;
   Forest forest;
+  Box box;
   Vec3 middle{0};
   double reach_m = 1, leaf_side_m = 0.1;
 
   Tree(std::string called, Forest made) : name(std::move(called)), forest(std::move(made)) {
     Prototype& p = forest.prototypes[0];
     p.wood.clear(), p.wood_mesh.clear();
-    const Box box = prototype_bounds(p);
+    box = prototype_bounds(p);
     middle = 0.5 * (box.lo + box.hi);
     reach_m = 0.55 * glm::length(box.size());
     leaf_side_m = std::sqrt(leaf_area_m2(p) / static_cast<double>(p.foliage.size()));
@@ -49,9 +50,14 @@ Tree grown(const std::string& latin, double dbh_cm) {
 struct View {
   const Tree& tree;
   Vec3 v;
+  double across_m = 0, up_m = 0;  // half sizes of the window; 0: of the tree's box as seen
   Basis basis = basis_around(v);
   Vec3 origin(double a, double b) const {
-    return tree.middle + tree.reach_m * (a * basis.tangent + b * basis.bitangent + 3.0 * v);
+    const Box& box = tree.box;
+    const auto half = [&](const Vec3& axis) { return 0.5 * glm::dot(glm::abs(axis), box.size()); };
+    const double x = across_m > 0 ? across_m : half(basis.tangent),
+                 y = up_m > 0 ? up_m : half(basis.bitangent);
+    return tree.middle + a * x * basis.tangent + b * y * basis.bitangent + 3.0 * tree.reach_m * v;
   }
 };
 
@@ -60,7 +66,7 @@ struct Cover {
 };
 Cover cover_of(const Tree& tree, const RayScene& scene, const BillboardCloud& cloud) {
   Cover cover;
-  constexpr int side = 56;
+  constexpr int side = 112;
   for (int k = 0; k < 27; ++k) {
     if (k == 13) continue;
     const View view{tree, glm::normalize(Vec3(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1))};
@@ -124,9 +130,10 @@ struct Light {
 };
 // Leaves of `leaf_px` pixels.
 Light light_of(const Tree& tree, const RayScene& scene, const BillboardCloud& cloud, double leaf_px) {
-  const View view{tree, glm::normalize(Vec3(1, 0.4, 0.3))};
-  Light out;
-  out.side = std::clamp(static_cast<int>(2 * tree.reach_m / tree.leaf_side_m * leaf_px), 11, 96);
+  Light out;  // of a window of at most 64 pixels around the middle of the crown
+  out.side = std::clamp(static_cast<int>(2 * tree.reach_m / tree.leaf_side_m * leaf_px), 11, 64);
+  const double half_m = 0.5 * out.side * tree.leaf_side_m / leaf_px;
+  const View view{tree, glm::normalize(Vec3(1, 0.4, 0.3)), half_m, half_m};
   const auto leaves = [&](const Vec3& o, const Vec3& d) { return leaf_light(tree, scene, o, d); };
   const auto boards = [&](const Vec3& o, const Vec3& d) { return board_light(tree, cloud, o, d); };
   const int samples = std::max(4, 60000 / (out.side * out.side));
