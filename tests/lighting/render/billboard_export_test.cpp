@@ -40,7 +40,9 @@ BillboardExportOptions options() {
 }
 
 std::vector<std::uint8_t> read_rgba(const std::filesystem::path& path, int side) {
-  auto input = OIIO::ImageInput::open(path.string());
+  OIIO::ImageSpec as_stored;
+  as_stored.attribute("oiio:UnassociatedAlpha", 1);
+  auto input = OIIO::ImageInput::open(path.string(), &as_stored);
   EXPECT_TRUE(input) << OIIO::geterror();
   EXPECT_EQ(input->spec().width, side);
   EXPECT_EQ(input->spec().height, side);
