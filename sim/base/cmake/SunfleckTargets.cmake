@@ -26,7 +26,7 @@ function(sunfleck_library name)
 endfunction()
 
 # sunfleck_test(name SOURCES a_test.cpp ... LINKS target ...): one GoogleTest program, run by ctest as one test. Those of
-# tests/support/slow_tests.txt are labelled slow: the presets debug, asan and tsan leave them out.
+# tests/support/slow_tests.txt are labelled slow: the presets debug and tsan leave them out.
 file(STRINGS ${CMAKE_SOURCE_DIR}/tests/support/slow_tests.txt SUNFLECK_SLOW_TESTS REGEX "^[a-z]")
 list(TRANSFORM SUNFLECK_SLOW_TESTS REPLACE " .*" "")
 set(SUNFLECK_TEST_LIMIT_S 900)

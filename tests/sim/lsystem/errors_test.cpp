@@ -27,7 +27,7 @@ void run(const Mistake& mistake) {
   DeriveOptions options;
   options.steps = mistake.steps;
   options.max_modules = 1000;
-  grammar.interpret(grammar.derive(options), StartFrame::kTree);
+  grammar.interpret(grammar.derive(options), StartFrame::kTree, options);
 }
 
 TEST_P(Mistakes, AreToldWithPlaceAndRemedy) {
@@ -84,7 +84,7 @@ const Mistake kMistakes[] = {
      "symbols: A(1)\naxiom: A(60)\ndecomposition:\nA(n) : n > 0 --> A(n-1)A(n-1)\nA(n) -->", 1,
      "bad.lsys:", "more than 1000 decompositions of one module", ErrorKind::kLimitExceeded},
     {"InterpretationIntoNothing", "symbols: A\naxiom: A\ninterpretation:\nmaximum depth: 60\nA --> A A", 1,
-     "bad.lsys", "interpretation of one module by more than "},
+     "bad.lsys", "interpretation of one module by more than 1000 rules"},
     {"HugeArity", "symbols: A(1e300)\naxiom: A", 0, "bad.lsys:1", "parameters that cannot be"},
     {"BrokenArity", "symbols: A(1.5)\naxiom: A(1)", 0, "bad.lsys:1", "parameters that cannot be"},
     {"ZeroWeights", "axiom: F\nF --> FF : 0", 1, "bad.lsys:2", "weights that sum to zero"},
