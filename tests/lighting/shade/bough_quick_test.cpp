@@ -53,9 +53,9 @@ TEST(BoughQuick, KeepsTheSpotsWhereItIsAskedNothing) {
     }
 }
 
-// Mean depth of lines that meet a ball of radius R evenly: half the one-sided needle area over pi R^2 (needles
-// whose projections are counted in full), and the share by which the bough is a needle's radius wider than
-// where its needles end (bough.h). 100,000 lines, three standard errors of 0.6 %.
+// Mean depth of lines that meet a ball of radius R evenly: half the one-sided needle area over pi R^2
+// (needles whose projections are counted in full), and the share by which the bough is a needle's radius
+// wider than where its needles end (bough.h). 100,000 lines, three standard errors of 0.6 %.
 TEST(ShootBough, KeepsTheNeedleArea) {
   for (const char* file : {"picea_abies", "abies_alba", "pinus_sylvestris", "larix_decidua"}) {
     const FoliageTemplate f =
