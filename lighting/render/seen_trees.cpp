@@ -240,6 +240,8 @@ TreeSelection trees_for_picture(const ForestOutline& forest, const std::vector<M
     throw_invalid("far_light", "is " + std::to_string(far_light), "a share of light, 0 to 0.5");
   Selector selector(forest, materials, request);
   if (forest.period) return keep_all(forest, selector, "the forest repeats without end");
+  if (request.detail.mode != DetailMode::kFull)
+    return keep_all(forest, selector, "enlarged leaves of far trees may stick out of their boxes");
   if (mode == RenderMode::kPathTraced && far_light == 0.0)
     return keep_all(forest, selector, "paths come from everywhere");
   TreeSelection selection;

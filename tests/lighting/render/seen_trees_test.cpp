@@ -69,8 +69,11 @@ struct Orchard {
     }
   }
 
+  Visibility visibility = Visibility::kRays;
+  PictureDetail detail{};
+
   RenderRequest request(const Camera& camera) const {
-    return {camera, scene.light, scene.look, scene.effort, scene.leaf_sun};
+    return {camera, scene.light, scene.look, scene.effort, scene.leaf_sun, detail, visibility};
   }
   OpticsTable optics(const Forest& forest) const { return OpticsTable(forest, scene.optics_request); }
   TreeSelection selection(const Camera& camera, RenderMode mode, double far_light = 0) const {
@@ -135,6 +138,21 @@ TEST(SeenTrees, PictureByParallelRaysKeepsItsBytes) {
   camera.kind = CameraKind::kOrthographic;
   camera.ortho_height_m = 20;
   expect_same_picture(orchard, camera, 200);
+}
+
+TEST(SeenTrees, RasterisedPicturesKeepTheirBytes) {
+  Orchard orchard;
+  orchard.visibility = Visibility::kRaster;
+  expect_same_picture(orchard, camera_at({155, 155, 2}, {175, 190, 4}), 260);
+  expect_same_picture(orchard, camera_at({30, 30, 40}, {35, 36, 0}, 30), 200);
+}
+
+// Enlarged leaves reach farther than the boxes that the file states.
+TEST(SeenTrees, LevelsOfDetailKeepAllTrees) {
+  Orchard orchard;
+  orchard.detail.mode = DetailMode::kAuto;
+  const Camera camera = camera_at({155, 155, 2}, {175, 190, 4});
+  EXPECT_EQ(orchard.selection(camera, RenderMode::kLightMap).trees_needed, 400u);
 }
 
 TEST(SeenTrees, FisheyePictureKeepsItsBytes) {
