@@ -88,7 +88,7 @@ struct RenderRequest {
   PictureLook look{};
   RenderEffort effort{};
   LeafSun leaf_sun = LeafSun::kTraced;
-  Visibility visibility = Visibility::kAuto;
+  Visibility visibility = Visibility::kRays;
 };
 // Throws Error(kInvalidInput) naming "render.<field>" or "camera.<field>".
 void validate(const RenderRequest& request);

@@ -53,10 +53,10 @@ RenderSettings read_render_settings(const ConfigTable& table) {
       static_cast<int>(table.integer_or("max_samples_per_pixel", 4096, {1, 1 << 20}));
   s.leaf_sun = table.choice_or("leaf_sun", "traced", {"traced", "stored"}) == "stored" ? LeafSun::kStored
                                                                                        : LeafSun::kTraced;
-  const std::string visibility = table.choice_or("visibility", "auto", {"auto", "rays", "raster"});
-  s.visibility = visibility == "rays"     ? Visibility::kRays
+  const std::string visibility = table.choice_or("visibility", "rays", {"auto", "rays", "raster"});
+  s.visibility = visibility == "auto"     ? Visibility::kAuto
                  : visibility == "raster" ? Visibility::kRaster
-                                          : Visibility::kAuto;
+                                          : Visibility::kRays;
   s.look.outline = read_outline(table);
   s.look.patterns = table.boolean_or("patterns", true);
   s.look.ground = table.choice_or("ground", "litter", {"litter", "grass"}) == "grass" ? GroundCover::kGrass
