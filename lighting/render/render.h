@@ -93,7 +93,7 @@ struct RenderRequest {
   RenderEffort effort{};
   LeafSun leaf_sun = LeafSun::kTraced;
   PictureDetail detail{};  // of far trees
-  Visibility visibility = Visibility::kAuto;
+  Visibility visibility = Visibility::kRays;
 };
 // Throws Error(kInvalidInput) naming "render.<field>" or "camera.<field>".
 void validate(const RenderRequest& request);

@@ -98,7 +98,7 @@ RenderSettings read_render_settings(const ConfigTable& table) {
   s.effort.max_samples_per_pixel =
       static_cast<int>(table.integer_or("max_samples_per_pixel", 4096, {1, 1 << 20}));
   s.leaf_sun = leaf_sun_named(table.text_or("leaf_sun", "traced"), table.where("leaf_sun"));
-  s.visibility = visibility_named(table.text_or("visibility", "auto"), table.where("visibility"));
+  s.visibility = visibility_named(table.text_or("visibility", "rays"), table.where("visibility"));
   s.detail = picture_detail_named(table.text_or("detail", "full"), table.where("detail"));
   s.detail.tolerance = table.number_or("detail_tolerance", s.detail.tolerance, {1e-6, 1.0});
   s.look.outline = read_outline(table);

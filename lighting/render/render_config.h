@@ -26,7 +26,7 @@ struct RenderSettings {
   PictureLook look;
   RenderEffort effort;
   LeafSun leaf_sun = LeafSun::kTraced;
-  Visibility visibility = Visibility::kAuto;
+  Visibility visibility = Visibility::kRays;
   PictureDetail detail;
   ToneMap tone;
 };

@@ -14,7 +14,7 @@ struct RenderScene {
   PictureLook look = plain_look();
   RenderEffort effort{};
   LeafSun leaf_sun = LeafSun::kStored;
-  Visibility visibility = Visibility::kAuto;
+  Visibility visibility = Visibility::kRays;
 
   RenderScene() {
     forest.materials = {{"leaf", {{"NIR", 0.5, 0.5, 1.0}, {"PAR", 0.5, 0.5, 1.0}}}};
