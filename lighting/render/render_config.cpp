@@ -49,6 +49,18 @@ std::string to_string(LeafSun sun) {
 std::string to_string(GroundCover ground) { return ground == GroundCover::kGrass ? "grass" : "litter"; }
 std::string to_string(ToneCurve curve) { return curve == ToneCurve::kFilmic ? "filmic" : "linear"; }
 
+std::string to_string(ShootForm form) {
+  switch (form) {
+    case ShootForm::kNeedles:
+      return "explicit";
+    case ShootForm::kBough:
+      return "bough";
+    case ShootForm::kVolume:
+      break;
+  }
+  return "volume";
+}
+
 RenderMode render_mode_named(const std::string& word, const std::string& where) {
   for (const RenderMode mode : {RenderMode::kLightMap, RenderMode::kPathTraced})
     if (word == to_string(mode)) return mode;

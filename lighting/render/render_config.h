@@ -14,6 +14,7 @@ RenderMode render_mode_named(const std::string& word, const std::string& where);
 std::string to_string(LeafSun sun);         // "stored", "traced", "tile"
 std::string to_string(GroundCover ground);  // "litter", "grass"
 std::string to_string(ToneCurve curve);     // "linear", "filmic"
+std::string to_string(ShootForm form);      // "volume", "explicit", "bough"
 // Throws likewise.
 LeafSun leaf_sun_named(const std::string& word, const std::string& where);
 

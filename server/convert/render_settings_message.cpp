@@ -124,6 +124,9 @@ void fill_message(const RenderSettings& s, v1::RenderSettings& message) {
   message.set_ground(to_string(s.look.ground));
   message.set_tone(to_string(s.tone.curve));
   message.set_exposure_stops(s.tone.exposure_stops);
+  message.set_detail(to_string(s.detail));
+  message.set_detail_tolerance(s.detail.tolerance);
+  message.set_needles(to_string(s.look.shoots));
   fill_textures(s.look.textures, message);
 }
 
