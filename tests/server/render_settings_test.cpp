@@ -266,7 +266,7 @@ TEST_F(RenderSettingsServed, EveryBadFieldIsNamed) {
       {"render.noise", "nan", [](Settings& s) { s.set_noise(std::nan("")); }},
       {"render.noise", "0 to 1", [](Settings& s) { s.set_noise(-1); }},
       {"render.max_samples_per_pixel", "from 1", [](Settings& s) { s.set_max_samples_per_pixel(0); }},
-      {"render.leaf_sun", "\"traced\"", [](Settings& s) { s.set_leaf_sun("bright"); }},
+      {"render.leaf_sun", "traced, stored or tile", [](Settings& s) { s.set_leaf_sun("bright"); }},
       {"render.leaf_outline", "\"lobed\"", [](Settings& s) { s.set_leaf_outline("round"); }},
       {"render.leaf_gloss", "inf", [](Settings& s) { s.set_leaf_gloss(INFINITY); }},
       {"render.gloss_exponent", "1 to 1000", [](Settings& s) { s.set_gloss_exponent(0); }},
