@@ -1,6 +1,8 @@
 // Head comment in render_handlers.h.
 #include "server/handlers/render_handlers.h"
 
+#include <algorithm>
+
 #include "server/convert/camera_message.h"
 #include "server/convert/image_message.h"
 #include "server/convert/light_map_message.h"
@@ -49,14 +51,39 @@ RenderTask checked_task(const v1::StreamRenderRequest& request, const Limits& li
 // Pixels of an image, of the film behind it and of the files made from it, in bytes each.
 constexpr std::uint64_t kPixelBytes = 160;
 
-void check_memory(const RenderTask& task, const Limits& limits) {
-  const std::uint64_t needed = kPixelBytes * static_cast<std::uint64_t>(task.camera.width_px) *
-                               static_cast<std::uint64_t>(task.camera.height_px);
+// Of a needle drawn for itself and its place in the ray tracer, rather too many.
+constexpr std::uint64_t kNeedleBytes = 300;
+
+std::uint64_t needles_drawn(const Forest& forest, const PictureLook& look) {
+  if (look.shoots != ShootForm::kNeedles) return 0;
+  std::uint64_t needles = 0;
+  for (const Prototype& prototype : forest.prototypes)
+    for (const FoliageElement& e : prototype.foliage)
+      if (e.shape == ElementShape::kShoot)
+        if (const NeedleKind* kind = find_needle_kind(look.needles, prototype.materials[e.material]))
+          needles += needle_count(kind->foliage);
+  return needles;
+}
+
+// Of samples that are rasterised at once.
+constexpr std::uint64_t kRasterSampleBytes = 40, kRasterSamples = 8 << 20;
+
+std::uint64_t raster_bytes(const RenderTask& task, std::uint64_t pixels) {
+  if (task.render.mode != RenderMode::kLightMap || task.render.visibility == Visibility::kRays) return 0;
+  return kRasterSampleBytes * std::min(32 * pixels, kRasterSamples);
+}
+
+void check_memory(const RenderTask& task, const Forest& forest, const Limits& limits) {
+  const std::uint64_t pixels =
+      static_cast<std::uint64_t>(task.camera.width_px) * static_cast<std::uint64_t>(task.camera.height_px);
+  const std::uint64_t needed = kPixelBytes * pixels + raster_bytes(task, pixels) +
+                               kNeedleBytes * needles_drawn(forest, task.render.look);
   if (needed <= limits.request_memory_bytes) return;
   throw Error(ErrorKind::kLimitExceeded, "request_memory_bytes",
               "the picture would need about " + std::to_string(needed) + " bytes, one call may have " +
                   std::to_string(limits.request_memory_bytes),
-              "ask for fewer pixels");
+              task.render.look.shoots == ShootForm::kNeedles ? "ask for needles = volume or bough"
+                                                             : "ask for fewer pixels");
 }
 
 v1::StreamRenderResponse header_of(const StoredScene& scene, const RenderTask& task, const RenderStop& stop) {
@@ -130,7 +157,7 @@ RenderCall::Next render_scene(ServerState& state, const v1::StreamRenderRequest&
   RenderTask task = checked_task(request, state.limits);
   if (task.render.look.shoots != ShootForm::kVolume) task.render.look.needles = needle_kinds(state.species);
   const ScenePtr scene = state.scenes.find(request.scene());
-  check_memory(task, state.limits);
+  check_memory(task, scene->forest, state.limits);
   RenderStop stop(state, control.stop);
   call.push(header_of(*scene, task, stop));
   LightMapPtr map;

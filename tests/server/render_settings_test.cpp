@@ -67,7 +67,8 @@ class RenderSettingsServed : public ::testing::Test {
     static const Forest forest = grow_forest(row_of_trees(3, 300), species(), {});
     static const LightMap map = compute_light_map(forest, noon(Method::kSppG), {}, {});
     const OpticsTable optics(forest, light.optics);
-    const RenderRequest request = picture_request(s, camera, light.light);
+    RenderRequest request = picture_request(s, camera, light.light);
+    if (s.look.shoots != ShootForm::kVolume) request.look.needles = needle_kinds(species());
     return s.mode == RenderMode::kPathTraced ? render_path_traced(forest, optics, request, {})
                                              : render(forest, optics, map, request, {});
   }
@@ -94,6 +95,10 @@ TEST_F(RenderSettingsServed, EqualLocalOnesByteByByte) {
       "ground = \"grass\"\n",
       "tone = \"filmic\"\n",
       "exposure_stops = -1.25\n",
+      "leaf_sun = \"tile\"\n",
+      "detail = \"pruned_4\"\n",
+      "needles = \"explicit\"\n",
+      "needles = \"bough\"\n",
       "[[textures]]\nmaterial = \"Fagus sylvatica\"\nleaf_reflectance = \"" + leaf + "\"\nleaf_alpha = \"" +
           mask + "\"\nleaf_thickness = \"" + mask + "\"\n"};
   Client client = server_->client();
@@ -261,12 +266,15 @@ TEST_F(RenderSettingsServed, EveryBadFieldIsNamed) {
       {"render.noise", "nan", [](Settings& s) { s.set_noise(std::nan("")); }},
       {"render.noise", "0 to 1", [](Settings& s) { s.set_noise(-1); }},
       {"render.max_samples_per_pixel", "from 1", [](Settings& s) { s.set_max_samples_per_pixel(0); }},
-      {"render.leaf_sun", "\"traced\"", [](Settings& s) { s.set_leaf_sun("bright"); }},
+      {"render.leaf_sun", "traced, stored or tile", [](Settings& s) { s.set_leaf_sun("bright"); }},
       {"render.leaf_outline", "\"lobed\"", [](Settings& s) { s.set_leaf_outline("round"); }},
       {"render.leaf_gloss", "inf", [](Settings& s) { s.set_leaf_gloss(INFINITY); }},
       {"render.gloss_exponent", "1 to 1000", [](Settings& s) { s.set_gloss_exponent(0); }},
       {"render.bark_width_m", "0.001", [](Settings& s) { s.set_bark_width_m(0); }},
       {"render.ground", "\"grass\"", [](Settings& s) { s.set_ground("lava"); }},
+      {"render.detail", "pruned_16", [](Settings& s) { s.set_detail("much"); }},
+      {"render.detail_tolerance", "nan", [](Settings& s) { s.set_detail_tolerance(std::nan("")); }},
+      {"render.needles", "\"bough\"", [](Settings& s) { s.set_needles("many"); }},
       {"render.tone", "\"filmic\"", [](Settings& s) { s.set_tone("loud"); }},
       {"render.exposure_stops", "-20 to 20", [](Settings& s) { s.set_exposure_stops(99); }},
       {"render.textures", "0 to 32",
