@@ -30,12 +30,12 @@ std::string word_of(const Word<Choice> (&words)[count], Choice choice) {
 
 template <class Choice, std::size_t count>
 Choice named(const Word<Choice> (&words)[count], const std::string& word, const std::string& where) {
-  std::string known;
-  for (const auto& w : words) {
-    if (word == w.word) return w.choice;
-    known += (known.empty() ? "" : ", ") + std::string(w.word);
+  std::string known = words[0].word;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (word == words[i].word) return words[i].choice;
+    if (i > 0) known += (i + 1 == count ? " or " : ", ") + std::string(words[i].word);
   }
-  throw_invalid(where, "is '" + word + "'", "one of " + known);
+  throw_invalid(where, "is '" + word + "'", known);
 }
 
 std::filesystem::path read_path(const ConfigTable& table, const char* key) {

@@ -99,6 +99,7 @@ TEST_F(RenderSettingsServed, EqualLocalOnesByteByByte) {
       "detail = \"pruned_4\"\n",
       "needles = \"explicit\"\n",
       "needles = \"bough\"\n",
+      "visibility = \"raster\"\n",
       "[[textures]]\nmaterial = \"Fagus sylvatica\"\nleaf_reflectance = \"" + leaf + "\"\nleaf_alpha = \"" +
           mask + "\"\nleaf_thickness = \"" + mask + "\"\n"};
   Client client = server_->client();
@@ -274,7 +275,8 @@ TEST_F(RenderSettingsServed, EveryBadFieldIsNamed) {
       {"render.ground", "\"grass\"", [](Settings& s) { s.set_ground("lava"); }},
       {"render.detail", "pruned_16", [](Settings& s) { s.set_detail("much"); }},
       {"render.detail_tolerance", "nan", [](Settings& s) { s.set_detail_tolerance(std::nan("")); }},
-      {"render.needles", "\"bough\"", [](Settings& s) { s.set_needles("many"); }},
+      {"render.needles", "volume, explicit or bough", [](Settings& s) { s.set_needles("many"); }},
+      {"render.visibility", "auto, rays or raster", [](Settings& s) { s.set_visibility("sonar"); }},
       {"render.tone", "\"filmic\"", [](Settings& s) { s.set_tone("loud"); }},
       {"render.exposure_stops", "-20 to 20", [](Settings& s) { s.set_exposure_stops(99); }},
       {"render.textures", "0 to 32",
