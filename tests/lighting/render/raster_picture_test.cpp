@@ -23,7 +23,7 @@ using test::RenderScene;
 Image picture(const RenderScene& scene, const LightMap& map, const Camera& camera, Visibility visibility,
               const RunControl& control = {}, const TileSink& tiles = {}) {
   return render(scene.forest, OpticsTable(scene.forest, scene.optics_request), map,
-                {camera, scene.light, scene.look, scene.effort, LeafSun::kTraced, visibility}, control,
+                {camera, scene.light, scene.look, scene.effort, LeafSun::kTraced, {}, visibility}, control,
                 tiles);
 }
 

@@ -46,7 +46,7 @@ struct RenderScene {
 
   Image render(const Camera& camera, const RunControl& control = {}, const TileSink& tiles = {}) const {
     return sunfleck::render(forest, OpticsTable(forest, optics_request), map(),
-                            {camera, light, look, effort, leaf_sun, visibility}, control, tiles);
+                            {camera, light, look, effort, leaf_sun, {}, visibility}, control, tiles);
   }
   Image render_path_traced(const Camera& camera, const RunControl& control = {}) const {
     return sunfleck::render_path_traced(forest, OpticsTable(forest, optics_request),
