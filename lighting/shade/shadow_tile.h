@@ -66,8 +66,8 @@ inline float tile_rank(const TileView& view, const Vec3& point, std::uint32_t of
   return (static_cast<float>(view.rank[(row << view.shift) + column]) + 0.5f) * (1.0f / 65536);
 }
 
-// The same between texel centres by bilinear mixture: smooth edges, but no longer evenly spread over (0, 1), for
-// who finds thresholds by quantiles.
+// The same between texel centres by bilinear mixture: smooth edges, but no longer evenly spread over (0, 1),
+// for who finds thresholds by quantiles.
 inline float tile_rank_between(const TileView& view, const Vec3& point, std::uint32_t offset = 0) {
   const double x = glm::dot(point, view.across), y = glm::dot(point, view.up);
   const double column = std::floor(x), row = std::floor(y);
