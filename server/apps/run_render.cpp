@@ -71,8 +71,7 @@ void print_detail(const Image& image) {
     if (trees == 0) continue;
     line += (line.empty() ? "" : ", ") + std::to_string(trees) + " " + to_string(static_cast<Detail>(d));
   }
-  if (image.trees_at[0] == 0 || line.find(',') != std::string::npos)
-    std::printf("detail       trees: %s\n", line.c_str());
+  std::printf("detail       trees: %s\n", line.c_str());
 }
 
 }  // namespace

@@ -152,7 +152,7 @@ void compare(const Forest& forest, int side, const BillboardCloud& cloud) {
     if (!hit) return 0.5;
     const Vec3 point = origin + at->distance_m * direction;
     const double cosine = std::abs(glm::dot(element_normal(tree.foliage[at->leaf]), kSun));
-    return closest_billboard(cloud, point, kSun, 1e-9, {}, at->plane) ? 0.0 : 0.45 * cosine;
+    return closest_billboard(cloud, point, kSun, 1e-9, {}, {at->plane, at->leaf}) ? 0.0 : 0.45 * cosine;
   };
   print(side, "billboards 130", 1, picture_of(side, std::max(8, samples / 8), 3, boards), truth);
 }
