@@ -51,7 +51,8 @@ struct EnvelopeFullOptions {
   EnvelopeOwnLeaf own_leaf = EnvelopeOwnLeaf::kRemoved;
   EnvelopeBorder border = EnvelopeBorder::kByScene;
   // Of the leaf-area grid; 0: clamp(extent / 32, 2 side, 4 side), and of a tree that stands alone wider
-  // than 4 sides where there would be more than 0.65 cells per leaf (200,000 leaves and more).
+  // than 4 sides where there would be more than 0.65 cells per leaf (dense crowns of 200,000 leaves and more,
+  // open ones before that).
   double cell_m = 0;
 };
 
