@@ -103,8 +103,11 @@ ImageFigures compare(const ImageTruth& truth, std::span<const Image> repeats) {
   f.noise = scale * std::sqrt(sums.variance / n);
   f.floor = std::sqrt(std::max(0.0, f.rmse * f.rmse - f.noise * f.noise));
   f.ssim = 0.0;
-  for (const Image& image : repeats)
-    f.ssim += image_difference(image, truth.mean).ssim / static_cast<double>(repeats.size());
+  for (const Image& image : repeats) {
+    const ImageDifference apart = image_difference(image, truth.mean);
+    f.ssim += apart.ssim / static_cast<double>(repeats.size());
+    f.flip += apart.flip / static_cast<double>(repeats.size());
+  }
   return f;
 }
 

@@ -21,14 +21,15 @@ struct ImageTruth {
 // be all of the error and are white in any picture. Sizes must match and a side have 1 pixel at least.
 ImageTruth image_truth(const Image& first_half, const Image& second_half);
 
-// All but SSIM relative to the truth's brightness, over pixels that count and the three channels.
+// All but SSIM and FLIP relative to the truth's brightness, over pixels that count and the three channels.
 struct ImageFigures {
   double bias = 0;                 // mean difference
   double bias_standard_error = 0;  // of it, by the noise of picture and truth
   double rmse = 0;                 // of one picture, without the truth's noise
   double noise = 0;                // part of rmse that differs between the repeats
   double floor = 0;                // the rest: what no number of samples takes away
-  double ssim = 1;                 // image_difference.h; mean of the repeats; the truth's noise is in it
+  // image_difference.h; means of the repeats; the truth's noise is in them.
+  double ssim = 1, flip = 0;
 };
 // `repeats`: two or more pictures of one way, equal but for their seeds, all of another seed than the truth.
 ImageFigures compare(const ImageTruth& truth, std::span<const Image> repeats);

@@ -36,10 +36,10 @@ void add_line(const ImageBenchmark& b, const ImageRow& r, const std::string& tai
   out << r.scene << ',' << r.way << ',' << r.samples << ',' << r.width_px << ',' << r.height_px << ','
       << r.elements << ',' << r.instances << ',' << r.error.bias << ',' << r.error.bias_standard_error << ','
       << r.error.rmse << ',' << r.error.noise << ',' << r.error.floor << ',' << r.error.ssim << ','
-      << r.wall_s << ',' << r.cpu_s << ',' << field(r.path_traced_rmse_at_equal_time) << ','
-      << field(r.times_cheaper_at_equal_error) << ',' << b.reference_samples << ',' << b.reference_noise
-      << ',' << b.light_map_method << ',' << b.light_map_cpu_s << ',' << r.peak_memory_bytes << ',' << r.seed
-      << ',' << tail << '\n';
+      << r.error.flip << ',' << r.wall_s << ',' << r.cpu_s << ',' << field(r.path_traced_rmse_at_equal_time)
+      << ',' << field(r.times_cheaper_at_equal_error) << ',' << b.reference_samples << ','
+      << b.reference_noise << ',' << b.light_map_method << ',' << b.light_map_cpu_s << ','
+      << r.peak_memory_bytes << ',' << r.seed << ',' << tail << '\n';
 }
 
 PlotSeries way_series(const ImageBenchmark& benchmark, const std::string& way) {
@@ -64,14 +64,14 @@ std::vector<std::string> ways_of(const ImageBenchmark& benchmark) {
 
 std::string image_table(const ImageBenchmark& benchmark) {
   std::string text =
-      formatted("%-10s %-22s %7s %17s %8s %7s %7s %7s %9s %9s %12s %8s\n", "scene", "way", "samples", "bias",
-                "RMSE", "noise", "floor", "SSIM", "wall s", "CPU s", "path-traced", "times");
-  text += formatted("%91s %9s %12s %8s\n", "", "", "same time", "cheaper");
+      formatted("%-10s %-22s %7s %17s %8s %7s %7s %7s %7s %9s %9s %12s %8s\n", "scene", "way", "samples",
+                "bias", "RMSE", "noise", "floor", "SSIM", "FLIP", "wall s", "CPU s", "path-traced", "times");
+  text += formatted("%99s %9s %12s %8s\n", "", "", "same time", "cheaper");
   for (const ImageRow& r : benchmark.rows)
-    text += formatted("%-10s %-22s %7d %+8.2f +- %5.2f %8.2f %7.2f %7.2f %7.4f %9.3f %9.3f %12s %8s\n",
+    text += formatted("%-10s %-22s %7d %+8.2f +- %5.2f %8.2f %7.2f %7.2f %7.4f %7.4f %9.3f %9.3f %12s %8s\n",
                       r.scene.c_str(), r.way.c_str(), r.samples, 100 * r.error.bias,
                       100 * r.error.bias_standard_error, 100 * r.error.rmse, 100 * r.error.noise,
-                      100 * r.error.floor, r.error.ssim, r.wall_s, r.cpu_s,
+                      100 * r.error.floor, r.error.ssim, r.error.flip, r.wall_s, r.cpu_s,
                       number_or_dash("%.2f", 100 * r.path_traced_rmse_at_equal_time).c_str(),
                       number_or_dash("%.2f", r.times_cheaper_at_equal_error).c_str());
   return text;
@@ -83,7 +83,8 @@ std::string image_csv(const std::vector<ImageBenchmark>& benchmarks, int threads
   tail << threads << ',' << machine.commit << ',' << machine.date_utc << ',' << quoted(machine.compiler)
        << ',' << quoted(machine.processor);
   out << "scene,way,samples,width_px,height_px,elements,instances,bias,bias_standard_error,rmse,noise,floor,"
-         "ssim,wall_s,cpu_s,path_traced_rmse_at_equal_time,times_cheaper_at_equal_error,reference_samples,"
+         "ssim,flip,wall_s,cpu_s,path_traced_rmse_at_equal_time,times_cheaper_at_equal_error,reference_"
+         "samples,"
          "reference_noise,light_map_method,light_map_cpu_s,peak_memory_bytes,seed,threads,commit,date_utc,"
          "compiler,processor\n";
   for (const ImageBenchmark& b : benchmarks)

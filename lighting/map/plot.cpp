@@ -1,6 +1,7 @@
 #include "lighting/map/plot.h"
 
 #include <cmath>
+#include <iterator>
 #include <sstream>
 
 #include "lighting/map/gnuplot.h"
@@ -9,15 +10,23 @@
 namespace sunfleck {
 namespace {
 
-const char* style_words(const PlotSeries& series) {
-  if (!series.y_error.empty()) return "with yerrorbars pointtype 7 pointsize 0.7";
+// Colours come again after eight series; so the points of the next eight are other ones: discs, squares,
+// triangles, diamonds.
+int point_type(std::size_t series) {
+  constexpr int kTypes[] = {7, 5, 9, 13};
+  return kTypes[series / 8 % std::size(kTypes)];
+}
+
+std::string style_words(const PlotSeries& series, std::size_t number) {
+  const std::string points = " pointtype " + std::to_string(point_type(number)) + " pointsize ";
+  if (!series.y_error.empty()) return "with yerrorbars" + points + "0.7";
   switch (series.style) {
     case PlotStyle::kPoints:
-      return "with points pointtype 7 pointsize 0.8";
+      return "with points" + points + "0.8";
     case PlotStyle::kLines:
       return "with lines linewidth 2";
     case PlotStyle::kLinesPoints:
-      return "with linespoints linewidth 1.5 pointtype 7 pointsize 0.6";
+      return "with linespoints linewidth 1.5" + points + "0.6";
     case PlotStyle::kSteps:
       return "with histeps linewidth 2";
     case PlotStyle::kBoxes:
@@ -83,7 +92,7 @@ void write_panel(std::ostream& out, const PlotPanel& panel, std::size_t number) 
     if (panel.series[s].x.empty()) continue;
     const std::string block = "$p" + std::to_string(number) + "s" + std::to_string(s);
     write_data(out, block, panel.series[s]);
-    plot << (plot.str().empty() ? "plot " : ", ") << block << " " << style_words(panel.series[s]);
+    plot << (plot.str().empty() ? "plot " : ", ") << block << " " << style_words(panel.series[s], s);
     if (!panel.series[s].colour.empty()) plot << " linecolor rgb " << gnuplot_quoted(panel.series[s].colour);
     if (panel.series[s].name.empty())
       plot << " notitle";

@@ -60,6 +60,7 @@ TEST(ImageFigures, TheTruthItselfHasNoError) {
   EXPECT_EQ(f.rmse, 0);
   EXPECT_EQ(f.noise, 0);
   EXPECT_NEAR(f.ssim, 1, 1e-12);
+  EXPECT_NEAR(f.flip, 0, 1e-12);
 }
 
 TEST(ImageFigures, TheSunsDiscDoesNotCount) {
@@ -118,6 +119,7 @@ TEST(ImageErrors, TableOfASmallSceneHangsTogether) {
     EXPECT_GT(r.cpu_s, 0);
     EXPECT_GT(r.error.rmse, 0);
     EXPECT_GT(r.error.ssim, 0.2);
+    EXPECT_GT(r.error.flip, 0);
     // Four times as many independent samples halve the noise; from 4 to 16 they come in units of four
     // low-discrepancy samples, which take up to a third more away. Two repeats know a ratio to 3 %.
     if (i % plan.samples.size() > 0) {
