@@ -9,18 +9,10 @@
 #include "sim/base/parallel.h"
 #include "sim/base/random.h"
 #include "sim/forest/generated_scenes.h"
+#include "tests/lighting/depth/flat_leaf.h"
 
 namespace sunfleck {
 namespace {
-
-FoliageElement leaf(const Vec3& centre, const Vec3& half_u, const Vec3& half_v) {
-  FoliageElement e;
-  e.centre_m = Vec3f(centre);
-  e.half_u_m = Vec3f(half_u);
-  e.half_v_m = Vec3f(half_v);
-  e.area_m2 = static_cast<float>(4.0 * glm::length(glm::cross(half_u, half_v)));
-  return e;
-}
 
 Prototype of(std::vector<FoliageElement> foliage) {
   Prototype p;
@@ -33,12 +25,15 @@ Prototype of(std::vector<FoliageElement> foliage) {
 TEST(CloseCover, OfTwoLeavesAsOnPaper) {
   const Vec3 u(0.05, 0, 0), v(0, 0.05, 0), w(0, 0, 0.05);
   const double share = 1.0 - std::exp(-1.0 / (kPi + 1.0));
-  const auto facing = close_cover(of({leaf({0, 0, 1}, u, v), leaf({0, 0, 1.1}, u, v)}), {});
+  const auto facing =
+      close_cover(of({test::flat_leaf({0, 0, 1}, u, v), test::flat_leaf({0, 0, 1.1}, u, v)}), {});
   EXPECT_NEAR(facing[0], share, 1e-5);  // centres are floats: 1e-6 of their distance
   EXPECT_NEAR(facing[1], share, 1e-5);
-  const auto edge_on = close_cover(of({leaf({0, 0, 1}, u, v), leaf({0, 0, 1.1}, u, w)}), {});
+  const auto edge_on =
+      close_cover(of({test::flat_leaf({0, 0, 1}, u, v), test::flat_leaf({0, 0, 1.1}, u, w)}), {});
   EXPECT_NEAR(edge_on[0], 0.0, 1e-6);
-  const auto far = close_cover(of({leaf({0, 0, 1}, u, v), leaf({0, 0, 1.201}, u, v)}), {});
+  const auto far =
+      close_cover(of({test::flat_leaf({0, 0, 1}, u, v), test::flat_leaf({0, 0, 1.201}, u, v)}), {});
   EXPECT_EQ(far[0], 0.0f);
   EXPECT_TRUE(close_cover(Prototype{}, {}).empty());
 }
@@ -84,9 +79,9 @@ TEST(CloseCover, ManyLeavesInOnePlace) {
   RandomStream random(1, 0, RandomPurpose::kTestScene);
   std::vector<FoliageElement> foliage;
   for (int i = 0; i < 20000; ++i)
-    foliage.push_back(
-        leaf(Vec3(random.uniform(), random.uniform(), random.uniform()) * 1e-3, {0.05, 0, 0}, {0, 0.05, 0}));
-  foliage.push_back(leaf({30, 0, 0}, {0.05, 0, 0}, {0, 0.05, 0}));
+    foliage.push_back(test::flat_leaf(Vec3(random.uniform(), random.uniform(), random.uniform()) * 1e-3,
+                                      {0.05, 0, 0}, {0, 0.05, 0}));
+  foliage.push_back(test::flat_leaf({30, 0, 0}, {0.05, 0, 0}, {0, 0.05, 0}));
   const auto cover = close_cover(of(std::move(foliage)), {});
   for (const float c : cover) ASSERT_TRUE(c >= 0.0f && c <= 2.0f) << c;
   EXPECT_EQ(cover.back(), 0.0f);

@@ -9,24 +9,16 @@
 #include "lighting/depth/opacity_neighbours.h"
 #include "sim/base/random.h"
 #include "sim/forest/generated_scenes.h"
+#include "tests/lighting/depth/flat_leaf.h"
 #include "tests/support/golden.h"
 
 namespace sunfleck {
 namespace {
 
-FoliageElement quad(const Vec3& centre, const Vec3& half_u, const Vec3& half_v) {
-  FoliageElement e;
-  e.centre_m = Vec3f(centre);
-  e.half_u_m = Vec3f(half_u);
-  e.half_v_m = Vec3f(half_v);
-  e.area_m2 = static_cast<float>(4.0 * glm::length(glm::cross(half_u, half_v)));
-  return e;
-}
-
 Prototype lone_leaf(double half_side_m) {
   Prototype p;
   p.materials = {"leaf"};
-  p.foliage = {quad({0, 0, 1}, {half_side_m, 0, 0}, {0, half_side_m, 0})};
+  p.foliage = {test::flat_leaf({0, 0, 1}, {half_side_m, 0, 0}, {0, half_side_m, 0})};
   return p;
 }
 
@@ -45,7 +37,7 @@ TEST(OpacityMap, ALeafDoesNotShadeItself) {
 // light that comes through is 1 - 1 / 2.25 where both sit in the middle of one texel.
 TEST(OpacityMap, ALeafLetsThroughWhatItsTexelLeavesOpen) {
   Prototype p = lone_leaf(0.5);
-  p.foliage.push_back(quad({0, 0, 0}, {0.5, 0, 0}, {0, 0.5, 0}));
+  p.foliage.push_back(test::flat_leaf({0, 0, 0}, {0.5, 0, 0}, {0, 0.5, 0}));
   const OpacityMap map(p, {0, 0, 1}, 64, {});
   ASSERT_NEAR(map.layout().texel_m, 1.5, 1e-6);
   // The leaf's centre lies 1/3 texel from the box's corner: shares 0.5 + 1/3 and 0.5 - 1/3 of two texels.
@@ -160,7 +152,7 @@ TEST(OpacityNeighbours, AddUpLikeOneLargeTree) {
                       std::sin(instance.yaw_rad), instance.scale, prototype_bounds(p)});
     for (std::size_t e = 0; e < p.foliage.size(); ++e) {
       const WorldElement w = world_element(forest, i, e);
-      FoliageElement copy = quad(w.centre_m - origin, w.half_u_m, w.half_v_m);
+      FoliageElement copy = test::flat_leaf(w.centre_m - origin, w.half_u_m, w.half_v_m);
       all.foliage.push_back(copy);
     }
   }
